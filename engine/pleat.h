@@ -1,0 +1,344 @@
+/* pleat: real-time cloth for game engines. The one public header.
+ *
+ * A garment of a few hundred particles is simulated; a curved, length-true surface of thousands of triangles comes out.
+ * Method: M. Oshita, A. Makinouchi, "Real-time Cloth Simulation with Sparse Particles and Curved Faces", 2001.
+ *
+ * C99, no dependencies, compiles as C and C++. A host fetches the function table once,
+ *
+ *     const pleat_api* pleat = pleat_get_api(PLEAT_API_MAJOR);
+ *
+ * and then, in this order: world_create, garment_create, cloth_create, collider_create; each frame cloth_move_pins,
+ * collider_move_*, world_step, cloth_read_vertices.
+ *
+ * Conventions
+ *  - SI units: metres, seconds, kilograms, radians. Right-handed, y up, counter-clockwise faces.
+ *  - Positions are three packed floats; a `stride` is in bytes from one element to the next, 0 meaning tightly packed.
+ *  - Every *_def struct must be filled by its *_def_init first: that sets defaults and `size`, so that a host built
+ *    against an older, smaller struct keeps working.
+ *  - Every call returns a pleat_result, in every build. After an error nothing has changed, and a line that names the
+ *    field and its value has gone to the world's log. Non-finite input is refused.
+ *  - Nothing here is thread-safe for one world; different worlds are independent of each other.
+ *  - Pointers passed in are read during the call only. Data comes out by copy into the caller's memory.
+ */
+#ifndef PLEAT_H
+#define PLEAT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PLEAT_API_MAJOR 1u
+#define PLEAT_VERSION_STRING "0.1.0"
+
+/* ---- results ------------------------------------------------------------------------------------------------ */
+
+typedef uint32_t pleat_result;
+enum {
+  PLEAT_OK = 0,
+  PLEAT_ERROR_ARGUMENT = 1,     /* a null pointer, a value out of range or not finite: the log names the field */
+  PLEAT_ERROR_HANDLE = 2,       /* the id was never given out, or what it named is gone */
+  PLEAT_ERROR_MESH = 3,         /* the mesh cannot be cloth: the log names the fault and where it is */
+  PLEAT_ERROR_NOT_COMPILED = 4, /* asks for a part that this build leaves out: see pleat_api.features */
+  PLEAT_ERROR_MEMORY = 5,       /* the host's allocator said no */
+  PLEAT_ERROR_CAPACITY = 6,     /* the caller's buffer is too small, or a size is beyond PLEAT_MAX_* */
+  PLEAT_ERROR_INTERNAL = 7      /* a fault of ours: please report it */
+};
+
+/* What this build holds: bits of pleat_api.features. */
+enum {
+  PLEAT_FEATURE_COLLISION = 1u << 0, /* colliders, through Bullet */
+  PLEAT_FEATURE_SMOOTHING = 1u << 1  /* curved surfaces; without it only the flat triangles are drawn */
+};
+
+/* Sizes beyond these are refused: 32-bit indices of the drawn surface stay far from overflow. */
+#define PLEAT_MAX_PARTICLES 262144u
+#define PLEAT_MAX_TRIANGLES 524288u
+
+/* ---- handles: {index, generation}; an all-zero id is never valid ---------------------------------------------- */
+
+typedef struct pleat_world pleat_world;
+typedef struct pleat_garment { uint32_t index, generation; } pleat_garment;
+typedef struct pleat_cloth { uint32_t index, generation; } pleat_cloth;
+typedef struct pleat_collider { uint32_t index, generation; } pleat_collider;
+
+/* ---- host services --------------------------------------------------------------------------------------------- */
+
+typedef void* (*pleat_allocate_fn)(size_t bytes, size_t alignment, void* user);
+typedef void (*pleat_free_fn)(void* memory, size_t bytes, size_t alignment, void* user);
+
+enum { PLEAT_LOG_INFO = 0, PLEAT_LOG_WARNING = 1, PLEAT_LOG_ERROR = 2 };
+typedef void (*pleat_log_fn)(uint32_t level, const char* line, void* user);
+
+/* Called before (begin = 1) and after (begin = 0) each system of the schedule, for a host's profiler. */
+typedef void (*pleat_stage_fn)(const char* system, int begin, void* user);
+
+typedef void (*pleat_text_fn)(const char* line, void* user);
+typedef void (*pleat_line_fn)(const float from[3], const float to[3], uint32_t rgba, void* user);
+
+/* ---- world ----------------------------------------------------------------------------------------------------- */
+
+typedef struct pleat_world_def {
+  uint32_t size;
+  float gravity[3];        /* m/s2; default (0, -9.81, 0) */
+  float wind[3];           /* m/s, velocity of the air; default 0. Acts on cloths with drag_coefficient > 0 */
+  float air_density;       /* kg/m3; default 1.225 */
+  float max_substep;       /* s, longest internal step when a cloth's `substeps` is 0; default 1/480 */
+  pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up */
+  pleat_free_fn free;
+  void* memory_user;
+  pleat_log_fn log;        /* null (default): warnings and errors go to stderr */
+  void* log_user;
+  pleat_stage_fn stage;    /* null (default): no call, no clock read */
+  void* stage_user;
+} pleat_world_def;
+
+/* ---- meshes ---------------------------------------------------------------------------------------------------- */
+
+/* Mesh makers for common garments, so that a host needs no file to start. */
+enum {
+  PLEAT_SHAPE_GRID = 0, /* rows x columns particles in the xz plane, x along a row, centred on the origin */
+  PLEAT_SHAPE_RINGS = 1 /* a tube of horizontal rings around the y axis, strips of triangles between them: a skirt */
+};
+typedef struct pleat_shape_def {
+  uint32_t size;
+  uint32_t kind;
+  uint32_t rows, columns;     /* grid: particles; default 9 x 9, at least 2 x 2 */
+  float width, depth;         /* grid: extent in x and in z, m; default 1 */
+  uint32_t alternate;         /* grid: 1 = diagonals alternate from quad to quad; default 0: one direction */
+  uint32_t ring_count;        /* rings: at least 2 */
+  const uint32_t* ring_sizes; /* rings: particles of each ring, at least 3 */
+  const float* ring_radii;    /* rings: m */
+  const float* ring_heights;  /* rings: y, m */
+} pleat_shape_def;
+
+/* What was found in a garment's mesh. Faults marked * are repaired, the others refuse the mesh. */
+typedef struct pleat_mesh_report {
+  uint32_t degenerate_triangles;  /* * zero area or a repeated corner: left out */
+  uint32_t duplicate_triangles;   /* * same three corners as another: left out */
+  uint32_t flipped_triangles;     /* * winding against its neighbours': turned */
+  uint32_t unreferenced_vertices; /* * no triangle uses it: kept as an inert particle, so indices stay the host's */
+  uint32_t nonmanifold_edges;     /* more than two triangles on an edge */
+  uint32_t nonorientable_edges;   /* no consistent winding exists (a Moebius strip) */
+  uint32_t nonmanifold_vertices;  /* two fans touch in one point: accepted, but shading there is an average */
+  uint32_t parts;                 /* connected parts */
+  uint32_t border_loops;          /* closed chains of border edges */
+} pleat_mesh_report;
+
+typedef struct pleat_garment_def {
+  uint32_t size;
+  const float* positions;     /* rest shape, m */
+  uint32_t position_stride;
+  uint32_t vertex_count;
+  const uint32_t* triangles;  /* 3 indices each */
+  uint32_t triangle_count;
+  const float* uvs;           /* 2 floats a vertex, or null */
+  uint32_t uv_stride;
+  const uint32_t* pins;       /* vertices that follow the host (cloth_move_pins), in this order; or null */
+  uint32_t pin_count;
+  const uint32_t* seams;      /* vertex pairs: edges that are seams; or null */
+  uint32_t seam_count;        /* pairs */
+} pleat_garment_def;
+
+typedef struct pleat_garment_info {
+  uint32_t particles, triangles, edges, border_edges, hinges, pins;
+  float area; /* m2 at rest */
+} pleat_garment_info;
+
+/* ---- cloth ----------------------------------------------------------------------------------------------------- */
+
+enum {
+  PLEAT_INTEGRATOR_SYMPLECTIC_EULER = 0, /* default: order 1, quiet, stable to 2/omega */
+  PLEAT_INTEGRATOR_EXPLICIT_EULER = 1,   /* the paper, section 5: order 1, unstable without damping */
+  PLEAT_INTEGRATOR_RUNGE_KUTTA_4 = 2     /* the paper, section 4.1: order 4 where nothing is in contact; 4 force passes */
+};
+enum {
+  PLEAT_SURFACE_FLAT = 0,  /* the coarse triangles, subdivided in their planes */
+  PLEAT_SURFACE_PN = 1,    /* curved PN triangles (Vlachos et al. 2001) */
+  PLEAT_SURFACE_PAPER = 2, /* the paper's rules to the letter: normals by force, one outward fold on a short edge */
+  PLEAT_SURFACE_PLEAT = 3  /* default: calm normals, folds to the side the cloth already bulges to */
+};
+enum {
+  PLEAT_FACE_RESPONSE_WEIGHTED = 0, /* default: each corner moves by its share in the touching point */
+  PLEAT_FACE_RESPONSE_WHOLE = 1     /* the paper, figure 6(d): all three corners move alike */
+};
+#define PLEAT_LEVEL_FAN 0u /* the paper's 18 triangles a face: 3 corner patches of 4, a fan of 6 in the middle */
+#define PLEAT_LEVEL_MAX 8u /* level n = 1..8: 4 n^2 triangles a face */
+
+/* Settings that may change while the cloth lives (cloth_set). */
+typedef struct pleat_cloth_settings {
+  uint32_t integrator;      /* default symplectic Euler */
+  uint32_t substeps;        /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for; at most 64 */
+  uint32_t sweeps;          /* passes of strain limit and contact in a substep; default 3, 1..64 */
+  float density;            /* kg/m2; default 0.2 */
+  float stiffness;          /* k of eq (1), N; default 30. Small on purpose: the strain limit holds the length */
+  float stretch_limit;      /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
+  float bend_stiffness;     /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
+  float edge_damping;       /* rate at which an edge's stretching motion dies, 1/s; default 4 */
+  float bend_damping;       /* the same for the angle across an edge, 1/s; default 4 */
+  float air_damping;        /* rate at which all motion dies, 1/s; default 0.1 */
+  float drag_coefficient;   /* C_d of a face in the wind; default 0: no face drag */
+  float thickness;          /* distance kept from bodies, m; default 0.005 */
+  float friction;           /* Coulomb coefficient, multiplied by the collider's; default 0.2 */
+  uint32_t face_response;   /* default weighted */
+  uint32_t surface;         /* default PLEAT_SURFACE_PLEAT */
+  uint32_t level;           /* default PLEAT_LEVEL_FAN */
+} pleat_cloth_settings;
+
+typedef struct pleat_cloth_def {
+  uint32_t size;
+  pleat_garment garment;
+  const float* positions;  /* start positions, garment order; null: the rest shape */
+  uint32_t position_stride;
+  pleat_cloth_settings settings;
+} pleat_cloth_def;
+
+typedef struct pleat_cloth_info {
+  uint32_t particles, triangles;
+  uint32_t drawn_vertices, drawn_triangles; /* at the cloth's present level */
+  uint32_t substeps;                        /* taken in the last tick */
+  uint64_t bytes;                           /* of this cloth's own state; the garment is shared */
+} pleat_cloth_info;
+
+#define PLEAT_NO_ATTRIBUTE 0xffffffffu
+/* Where and how drawn vertices are written: an engine's interleaved vertex buffer can be the target. */
+typedef struct pleat_vertex_target {
+  void* data;
+  uint32_t stride;           /* bytes from one vertex to the next */
+  uint32_t capacity;         /* vertices */
+  uint32_t position_offset;  /* bytes to float[3]; PLEAT_NO_ATTRIBUTE leaves one out */
+  uint32_t normal_offset;    /* bytes to float[3], unit length */
+  uint32_t uv_offset;        /* bytes to float[2]; zeros when the garment has none */
+} pleat_vertex_target;
+
+/* ---- colliders ------------------------------------------------------------------------------------------------- */
+
+enum {
+  PLEAT_COLLIDER_CAPSULE = 0, /* all points within radius of the segment ab; a = b makes a sphere */
+  PLEAT_COLLIDER_MESH = 1     /* triangles with outward, counter-clockwise faces; vertices may move each frame */
+};
+typedef struct pleat_collider_def {
+  uint32_t size;
+  uint32_t shape;
+  float a[3], b[3];          /* capsule: ends of the core, m */
+  float radius;              /* capsule: m, >= 0 */
+  const float* positions;    /* mesh: m */
+  uint32_t position_stride;
+  uint32_t vertex_count;
+  const uint32_t* triangles; /* mesh: 3 indices each */
+  uint32_t triangle_count;
+  float friction;            /* multiplied by the cloth's; default 1 */
+} pleat_collider_def;
+
+/* ---- what happened ---------------------------------------------------------------------------------------------- */
+
+/* Counts since world_create, except where `last tick` is said. */
+typedef struct pleat_stats {
+  uint32_t size;               /* set by the caller to sizeof(pleat_stats) */
+  uint64_t ticks, substeps;
+  uint64_t particle_contacts;  /* rows that pushed, last tick */
+  uint64_t face_contacts;      /* rows that pushed, last tick */
+  uint64_t contacts_dropped;   /* more touching places than a cloth has room for */
+  uint64_t edges_skipped;      /* shorter than 1e-9 m when the strain limit met them */
+  uint64_t speed_clamps;       /* particles that would have crossed half an edge or more in one substep */
+  uint64_t nonfinite_restored; /* particles put back because a substep made them non-finite */
+  uint64_t allocations;        /* calls of the world's allocator */
+  uint64_t bytes, peak_bytes;  /* held through it */
+} pleat_stats;
+
+/* What world_debug_draw shows. */
+enum {
+  PLEAT_DEBUG_COARSE_EDGES = 1u << 0,   /* grey */
+  PLEAT_DEBUG_BASE_NORMALS = 1u << 1,   /* yellow: before normal control (the paper, figure 8d) */
+  PLEAT_DEBUG_FORCE_NORMALS = 1u << 2,  /* orange: after it */
+  PLEAT_DEBUG_EDGE_LENGTH = 1u << 3,    /* purple: from an edge's midpoint to where edge length control moved it */
+  PLEAT_DEBUG_COLLIDERS = 1u << 4       /* blue: capsule cores and mesh edges */
+};
+
+/* ---- the table -------------------------------------------------------------------------------------------------- */
+
+typedef struct pleat_api {
+  uint32_t size;         /* of this struct: later minor versions append */
+  uint32_t major;
+  const char* version;
+  uint32_t features;     /* PLEAT_FEATURE_* bits */
+
+  pleat_result (*world_def_init)(pleat_world_def* def, size_t size);
+  pleat_result (*world_create)(const pleat_world_def* def, pleat_world** world);
+  void (*world_destroy)(pleat_world* world);
+  /* Advances all cloths by dt seconds, 0 < dt <= 1. Pins and colliders arrive at the poses last given. */
+  pleat_result (*world_step)(pleat_world* world, float dt);
+  pleat_result (*world_set_gravity)(pleat_world* world, const float gravity[3]);
+  pleat_result (*world_set_wind)(pleat_world* world, const float wind[3]);
+  pleat_result (*world_stats)(const pleat_world* world, pleat_stats* stats);
+  /* One line a system of the schedule: `name  phase  run`, or `name  phase  left out: why`. */
+  pleat_result (*world_explain)(pleat_world* world, pleat_text_fn write, void* user);
+  pleat_result (*world_debug_draw)(const pleat_world* world, uint32_t what, pleat_line_fn draw, void* user);
+
+  pleat_result (*shape_def_init)(pleat_shape_def* def, size_t size);
+  pleat_result (*shape_size)(const pleat_shape_def* def, uint32_t* vertex_count, uint32_t* triangle_count);
+  /* positions: 3 floats a vertex; triangles: 3 indices each; room as shape_size said. */
+  pleat_result (*shape_build)(const pleat_shape_def* def, float* positions, uint32_t* triangles);
+
+  pleat_result (*garment_def_init)(pleat_garment_def* def, size_t size);
+  /* report may be null; it is filled on PLEAT_ERROR_MESH too. */
+  pleat_result (*garment_create)(pleat_world* world, const pleat_garment_def* def, pleat_mesh_report* report,
+                                 pleat_garment* garment);
+  /* Refused (PLEAT_ERROR_ARGUMENT) while a cloth uses it. */
+  pleat_result (*garment_destroy)(pleat_world* world, pleat_garment garment);
+  pleat_result (*garment_info)(const pleat_world* world, pleat_garment garment, pleat_garment_info* info);
+  pleat_result (*garment_read_triangles)(const pleat_world* world, pleat_garment garment, uint32_t* triangles,
+                                         uint32_t capacity);
+  /* particles: 2 indices an edge, lower first; rest_lengths: m; either may be null. capacity: edges. */
+  pleat_result (*garment_read_edges)(const pleat_world* world, pleat_garment garment, uint32_t* particles,
+                                     float* rest_lengths, uint32_t capacity);
+
+  pleat_result (*cloth_def_init)(pleat_cloth_def* def, size_t size);
+  pleat_result (*cloth_create)(pleat_world* world, const pleat_cloth_def* def, pleat_cloth* cloth);
+  pleat_result (*cloth_destroy)(pleat_world* world, pleat_cloth cloth);
+  pleat_result (*cloth_get)(const pleat_world* world, pleat_cloth cloth, pleat_cloth_settings* settings);
+  pleat_result (*cloth_set)(pleat_world* world, pleat_cloth cloth, const pleat_cloth_settings* settings);
+  pleat_result (*cloth_info)(const pleat_world* world, pleat_cloth cloth, pleat_cloth_info* info);
+  /* Where the pins shall be at the end of the next tick; they move there in a straight line over its substeps. */
+  pleat_result (*cloth_move_pins)(pleat_world* world, pleat_cloth cloth, const float* positions, uint32_t stride,
+                                  uint32_t count);
+  /* Coarse particles; either pointer may be null. capacity: particles. */
+  pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions,
+                                       float* velocities, uint32_t capacity);
+  /* Replaces all positions and velocities (null: zero): load a saved state, or place the cloth anew. Pins move too. */
+  pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
+                                        const float* velocities, uint32_t count);
+  /* The drawn surface as of the last tick. */
+  pleat_result (*cloth_read_vertices)(const pleat_world* world, pleat_cloth cloth, const pleat_vertex_target* target);
+  /* 3 indices a drawn triangle; constant while the level is. capacity: indices. */
+  pleat_result (*cloth_read_indices)(const pleat_world* world, pleat_cloth cloth, uint32_t* indices,
+                                     uint32_t capacity);
+
+  pleat_result (*collider_def_init)(pleat_collider_def* def, size_t size);
+  pleat_result (*collider_create)(pleat_world* world, const pleat_collider_def* def, pleat_collider* collider);
+  pleat_result (*collider_destroy)(pleat_world* world, pleat_collider collider);
+  pleat_result (*collider_set_enabled)(pleat_world* world, pleat_collider collider, uint32_t enabled);
+  /* Where the collider shall be at the end of the next tick; it moves there over its substeps. */
+  pleat_result (*collider_move_capsule)(pleat_world* world, pleat_collider collider, const float a[3],
+                                        const float b[3]);
+  pleat_result (*collider_move_mesh)(pleat_world* world, pleat_collider collider, const float* positions,
+                                     uint32_t stride, uint32_t count);
+} pleat_api;
+
+#if defined(_WIN32) && defined(PLEAT_BUILD)
+#define PLEAT_EXPORT __declspec(dllexport)
+#elif defined(__GNUC__)
+#define PLEAT_EXPORT __attribute__((visibility("default")))
+#else
+#define PLEAT_EXPORT
+#endif
+
+/* The one exported symbol. Null when this library does not speak that major version. */
+PLEAT_EXPORT const pleat_api* pleat_get_api(uint32_t major);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* PLEAT_H */
