@@ -173,7 +173,7 @@ typedef struct pleat_cloth_settings {
   uint32_t substeps;        /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for; at most 64 */
   uint32_t sweeps;          /* passes of strain limit and contact in a substep; default 3, 1..64 */
   float density;            /* kg/m2; default 0.2 */
-  float stiffness;          /* k of eq (1), N; default 30. Small on purpose: the strain limit holds the length */
+  float stiffness;          /* k of eq (1), N/m; default 30. Small on purpose: the strain limit holds the length */
   float stretch_limit;      /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
   float bend_stiffness;     /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
   float edge_damping;       /* rate at which an edge's stretching motion dies, 1/s; default 4 */
@@ -242,7 +242,6 @@ typedef struct pleat_stats {
   uint64_t face_contacts;      /* rows that pushed, last tick */
   uint64_t contacts_dropped;   /* more touching places than a cloth has room for */
   uint64_t edges_skipped;      /* shorter than 1e-9 m when the strain limit met them */
-  uint64_t speed_clamps;       /* particles that would have crossed half an edge or more in one substep */
   uint64_t nonfinite_restored; /* particles put back because a substep made them non-finite */
   uint64_t allocations;        /* calls of the world's allocator */
   uint64_t bytes, peak_bytes;  /* held through it */

@@ -1,0 +1,165 @@
+#include "components/garment.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "components/rest_curve.h"
+
+namespace pleat {
+namespace {
+
+float triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5f * length(cross(b - a, c - a)); }
+
+void add_particles(const GarmentInput& input, Garment& g) {
+  g.particle_count = static_cast<std::uint32_t>(input.positions.size());
+  g.rest_position.resize(g.particle_count);
+  for (std::size_t i = 0; i < g.particle_count; ++i) g.rest_position.view().set(i, input.positions[i]);
+  g.uv.resize(input.uvs.size());
+  std::copy(input.uvs.begin(), input.uvs.end(), g.uv.begin());
+  g.particle_area.resize(g.particle_count);
+  g.pinned.resize(g.particle_count);
+  g.pins.resize(input.pins.size());
+  std::copy(input.pins.begin(), input.pins.end(), g.pins.begin());
+  for (const std::uint32_t pin : input.pins) g.pinned[pin] = 1;
+}
+
+void add_faces(const GarmentInput& input, Garment& g) {
+  g.face_count = static_cast<std::uint32_t>(input.triangles.size());
+  g.face_rest_area.resize(g.face_count);
+  for (int k = 0; k < 3; ++k) g.face_particle[k].resize(g.face_count), g.face_edge[k].resize(g.face_count);
+  double area = 0.0;
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    const Triangle& t = input.triangles[f];
+    const float a = triangle_area(input.positions[t[0]], input.positions[t[1]], input.positions[t[2]]);
+    g.face_rest_area[f] = a;
+    area += a;
+    for (std::size_t k = 0; k < 3; ++k) {
+      g.face_particle[k][f] = t[k];
+      g.particle_area[t[k]] += a / 3.0f;
+    }
+  }
+  g.area = static_cast<float>(area);
+
+  g.around_begin.resize(std::size_t{g.particle_count} + 1);
+  g.faces_around.resize(std::size_t{3} * g.face_count);
+  for (const Triangle& t : input.triangles) {
+    for (const std::uint32_t v : t) ++g.around_begin[v + 1];
+  }
+  for (std::uint32_t i = 0; i < g.particle_count; ++i) g.around_begin[i + 1] += g.around_begin[i];
+  std::vector<std::uint32_t> next(g.around_begin.begin(), g.around_begin.end());
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    for (const std::uint32_t v : input.triangles[f]) g.faces_around[next[v]++] = f;
+  }
+}
+
+void add_edges(const GarmentInput& input, Garment& g) {
+  struct Side {
+    std::array<std::uint32_t, 2> edge;
+    std::uint32_t face, k;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = input.triangles[f][k], b = input.triangles[f][(k + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, f, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+
+  const auto is_new = [&](std::size_t s) { return s == 0 || sides[s].edge != sides[s - 1].edge; };
+  for (std::size_t s = 0; s < sides.size(); ++s) g.edge_count += is_new(s) ? 1u : 0u;
+  for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
+  g.edge_rest_length.resize(g.edge_count);
+  g.edge_rest_curve_length.resize(g.edge_count);
+  g.edge_is_seam.resize(g.edge_count);
+
+  double total = 0.0;
+  std::uint32_t e = 0;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const Side& side = sides[s];
+    if (is_new(s)) {
+      e = s == 0 ? 0 : e + 1;
+      const auto [i, j] = side.edge;
+      g.edge_particle[0][e] = i, g.edge_particle[1][e] = j;
+      g.edge_face[0][e] = side.face, g.edge_face[1][e] = kNone;
+      g.edge_rest_length[e] = length(input.positions[j] - input.positions[i]);
+      total += g.edge_rest_length[e];
+    } else {
+      g.edge_face[1][e] = side.face;
+    }
+    g.face_edge[side.k][side.face] = e;
+  }
+  g.mean_edge_length = static_cast<float>(total / g.edge_count);
+  g.border_edge_count = static_cast<std::uint32_t>(std::count(g.edge_face[1].begin(), g.edge_face[1].end(), kNone));
+
+  for (std::array<std::uint32_t, 2> seam : input.seams) {
+    std::sort(seam.begin(), seam.end());
+    const auto side = std::lower_bound(sides.begin(), sides.end(), Side{seam, 0, 0});
+    if (side != sides.end() && side->edge == seam) g.edge_is_seam[g.face_edge[side->k][side->face]] = 1;
+  }
+}
+
+void add_hinges(Garment& g) {
+  g.hinge_count = g.edge_count - g.border_edge_count;
+  for (auto& column : g.hinge_particle) column.resize(g.hinge_count);
+  g.hinge_rest_angle.resize(g.hinge_count);
+  g.hinge_shape.resize(g.hinge_count);
+
+  const ConstVec3View x = std::as_const(g.rest_position).view();
+  std::uint32_t h = 0;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const std::uint32_t fa = g.edge_face[0][e], fb = g.edge_face[1][e];
+    if (fb == kNone) continue;
+    const auto side_of = [&](std::uint32_t f) {
+      std::uint32_t k = 0;
+      while (g.face_edge[k][f] != e) ++k;
+      return k;
+    };
+    const std::uint32_t ka = side_of(fa), kb = side_of(fb);
+    const std::uint32_t p[4] = {g.face_particle[ka][fa], g.face_particle[(ka + 1) % 3][fa],
+                                g.face_particle[(ka + 2) % 3][fa], g.face_particle[(kb + 2) % 3][fb]};
+    for (std::size_t k = 0; k < 4; ++k) g.hinge_particle[k][h] = p[k];
+
+    const Vec3 edge = x[p[1]] - x[p[0]];
+    const Vec3 na = cross(edge, x[p[2]] - x[p[0]]), nb = cross(x[p[3]] - x[p[0]], edge);
+    g.hinge_rest_angle[h] = std::atan2(dot(cross(na, nb), normalized_or(edge, {})), dot(na, nb));
+    g.hinge_shape[h] = dot(edge, edge) / (g.face_rest_area[fa] + g.face_rest_area[fb]);
+    ++h;
+  }
+}
+
+}  // namespace
+
+Garment::Garment(std::pmr::memory_resource* m)
+    : rest_position(m),
+      uv(m),
+      particle_area(m),
+      pinned(m),
+      pins(m),
+      face_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      face_edge{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      face_rest_area(m),
+      edge_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      edge_face{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      edge_rest_length(m),
+      edge_rest_curve_length(m),
+      edge_is_seam(m),
+      hinge_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m),
+                     Column<std::uint32_t>(m)},
+      hinge_rest_angle(m),
+      hinge_shape(m),
+      around_begin(m),
+      faces_around(m) {}
+
+Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memory) {
+  Garment garment(memory);
+  add_particles(input, garment);
+  add_faces(input, garment);
+  add_edges(input, garment);
+  add_hinges(garment);
+  measure_rest_curves(garment);
+  return garment;
+}
+
+}  // namespace pleat

@@ -1,0 +1,62 @@
+// The garment asset: everything about a piece of clothing that does not change while it is worn. Built once from a
+// mesh, immutable, shared by all cloths cut from it.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+#include "components/column.h"
+#include "components/mesh.h"
+
+namespace pleat {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+struct Garment {
+  explicit Garment(std::pmr::memory_resource* memory);
+
+  std::uint32_t particle_count = 0, face_count = 0, edge_count = 0, hinge_count = 0, border_edge_count = 0;
+  float area = 0.0f;              // m2
+  float mean_edge_length = 0.0f;  // m
+
+  // Particles (P). uv has 2 floats a particle, or is empty.
+  Vec3Column rest_position;  // m
+  Column<float> uv;
+  Column<float> particle_area;  // m2, a third of the adjacent faces' area; 0 where no face is
+  Column<std::uint8_t> pinned;  // 1 where the host moves the particle
+  Column<std::uint32_t> pins;   // pinned particles in the host's order
+
+  // Faces (F). Edge k of a face joins its corners k and (k + 1) % 3.
+  Column<std::uint32_t> face_particle[3], face_edge[3];
+  Column<float> face_rest_area;  // m2
+
+  // Edges (E), each once, sorted by (first, second) particle, first < second.
+  Column<std::uint32_t> edge_particle[2];
+  Column<std::uint32_t> edge_face[2];    // the second is kNone on the border
+  Column<float> edge_rest_length;        // m
+  Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
+  Column<std::uint8_t> edge_is_seam;
+
+  // Hinges (H), one for each edge between two faces: particles 0 and 1 are the edge, in the winding of face A;
+  // 2 is the tip of face A and 3 that of face B.
+  Column<std::uint32_t> hinge_particle[4];
+  Column<float> hinge_rest_angle;  // rad
+  Column<float> hinge_shape;       // |e|^2 / (A1 + A2): times B it is the hinge's stiffness, N m
+
+  // Faces around each particle i: faces_around[around_begin[i] .. around_begin[i + 1]), ascending.
+  Column<std::uint32_t> around_begin, faces_around;
+};
+
+struct GarmentInput {
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;  // already through check_and_repair
+  std::span<const float> uvs;           // 2 a vertex, or empty
+  std::span<const std::uint32_t> pins;  // distinct, < positions.size()
+  std::span<const std::array<std::uint32_t, 2>> seams;
+};
+
+/// Builds the asset. Throws std::bad_alloc; the input must satisfy the notes above.
+Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memory);
+
+}  // namespace pleat

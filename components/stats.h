@@ -1,0 +1,16 @@
+// What the systems count while they run. Plain sums: a tick adds to them and the engine hands them out.
+#pragma once
+
+#include <cstdint>
+
+namespace pleat {
+
+struct Stats {
+  std::uint64_t particle_contacts = 0;   // rows at one particle that pushed
+  std::uint64_t face_contacts = 0;       // rows on edges and faces that pushed
+  std::uint64_t contacts_dropped = 0;    // touching places beyond the contact capacity
+  std::uint64_t edges_skipped = 0;       // met by the strain limit while shorter than 1e-9 m
+  std::uint64_t nonfinite_restored = 0;  // particles put back to where they were finite
+};
+
+}  // namespace pleat

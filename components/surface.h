@@ -1,0 +1,30 @@
+// The curved surface over the coarse mesh: what normal control and edge length control decide, and what is drawn.
+#pragma once
+
+#include <cstdint>
+
+#include "components/column.h"
+
+namespace pleat {
+
+/// How the surface is shaped; the values are those of PLEAT_SURFACE_* in engine/pleat.h.
+enum class SurfaceMode : std::uint32_t { kFlat = 0, kPn = 1, kPaper = 2, kPleat = 3 };
+
+/// One element per coarse particle (normal) or edge (the others). Only where a cloth is drawn curved.
+struct SurfaceColumns {
+  Vec3Column normal;          // unit, per particle
+  Vec3Column fold;            // unit, per edge: direction in which its midpoint is moved
+  Column<float> fold_height;  // m, per edge: how far; 0 where the edge is not short. Negative folds inward
+
+  explicit SurfaceColumns(std::pmr::memory_resource* m) : normal(m), fold(m), fold_height(m) {}
+};
+
+/// The drawn vertices, in the order of the cloth's TessellationPattern.
+struct DrawnColumns {
+  Vec3Column position;  // m
+  Vec3Column normal;    // unit
+
+  explicit DrawnColumns(std::pmr::memory_resource* m) : position(m), normal(m) {}
+};
+
+}  // namespace pleat

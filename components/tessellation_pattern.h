@@ -1,0 +1,49 @@
+// Which small triangles are drawn on a garment at one level of tessellation, and where each drawn vertex lies on the
+// coarse mesh. Drawn vertices are shared: those at particles come first, then those on edges, then those inside faces,
+// so that positions and normals agree across faces by construction and no crack can open.
+//
+//   fan      each face is split in four at its edges' midpoints; the three corner patches are drawn with 4 triangles,
+//            the middle one as a fan of 6 around its centre: 18 in all (the paper, section 5)
+//   n = 1..8 each of the four patches is drawn with n^2 triangles: 4 n^2 in all
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+
+#include "components/column.h"
+#include "components/garment.h"
+
+namespace pleat {
+
+/// One vertex inside a face, the same for every face: `patch` 0..2 = the corner patch at corner 0..2, 3 = the middle.
+/// `local` are its barycentrics in that patch (corner order below), `face` those in the whole face; both sum to 1.
+///   patch 0: (V0, M01, M20)   patch 1: (V1, M12, M01)   patch 2: (V2, M20, M12)   middle: (M01, M12, M20)
+struct InnerPoint {
+  std::uint32_t patch;
+  float local[3];
+  float face[3];
+};
+
+struct TessellationPattern {
+  explicit TessellationPattern(std::pmr::memory_resource* memory) : inner(memory), indices(memory) {}
+
+  std::uint32_t level = 0;     // 0 = fan
+  std::uint32_t segments = 0;  // drawn segments on each coarse edge: 4 at the fan level, else 2 n
+  std::uint32_t vertex_count = 0, triangle_count = 0;
+  std::uint32_t first_edge_vertex = 0;  // = particle count; edge e owns segments - 1 vertices from its lower end on
+  std::uint32_t first_face_vertex = 0;  // face f owns inner.size() vertices
+  Column<InnerPoint> inner;
+  Column<std::uint32_t> indices;  // 3 a drawn triangle, counter-clockwise like the face
+
+  std::uint32_t edge_vertex(std::uint32_t edge, std::uint32_t step) const {  // step 1 .. segments - 1
+    return first_edge_vertex + edge * (segments - 1) + (step - 1);
+  }
+  std::uint32_t face_vertex(std::uint32_t face, std::uint32_t inner_index) const {
+    return first_face_vertex + face * static_cast<std::uint32_t>(inner.size()) + inner_index;
+  }
+};
+
+/// level: 0 (fan) .. 8. Throws std::bad_alloc.
+TessellationPattern build_tessellation(const Garment& garment, std::uint32_t level, std::pmr::memory_resource* memory);
+
+}  // namespace pleat

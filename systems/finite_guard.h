@@ -1,0 +1,23 @@
+// The last word of a substep: nothing that is not finite leaves it.
+#pragma once
+
+#include <cstddef>
+
+#include "components/column.h"
+#include "components/stats.h"
+
+namespace pleat {
+
+/// A particle whose position or velocity is not finite, or farther than 1e6 m, or faster than 1e5 m/s, goes back to
+/// where the substep began and stands still there.
+/// Reads:  previous (P) m.  Writes: position m, velocity m/s (P); stats.nonfinite_restored.  Cost: O(P).  Errors: none.
+struct FiniteGuard {
+  std::size_t particle_count = 0;
+  ConstVec3View previous;
+  Vec3View position, velocity;
+
+  bool validate() const;
+  void run(Stats& stats) const;
+};
+
+}  // namespace pleat

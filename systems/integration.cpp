@@ -1,0 +1,51 @@
+#include "systems/integration.h"
+
+namespace pleat {
+namespace {
+
+void euler_axis(std::size_t n, const float* w, const float* f, float dt, bool symplectic, float* x, float* v) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float old_velocity = v[i];
+    v[i] += dt * (w[i] * f[i]);
+    x[i] += dt * (symplectic ? v[i] : old_velocity);
+  }
+}
+
+}  // namespace
+
+bool EulerIntegration::validate() const {
+  return inverse_mass != nullptr && force.x != nullptr && position.x != nullptr && velocity.x != nullptr && dt > 0.0f;
+}
+
+void EulerIntegration::run() const {
+  euler_axis(particle_count, inverse_mass, force.x, dt, symplectic, position.x, velocity.x);
+  euler_axis(particle_count, inverse_mass, force.y, dt, symplectic, position.y, velocity.y);
+  euler_axis(particle_count, inverse_mass, force.z, dt, symplectic, position.z, velocity.z);
+}
+
+bool RungeKuttaIntegration::validate() const {
+  return inverse_mass != nullptr && force.x != nullptr && start_position.x != nullptr && position.x != nullptr &&
+         velocity.x != nullptr && start_velocity.x != nullptr && position_slope.x != nullptr &&
+         velocity_slope.x != nullptr && dt > 0.0f && stage >= 0 && stage < 4;
+}
+
+void RungeKuttaIntegration::run() const {
+  constexpr float kWeight[4] = {1.0f / 6.0f, 2.0f / 6.0f, 2.0f / 6.0f, 1.0f / 6.0f};
+  constexpr float kNext[4] = {0.5f, 0.5f, 1.0f, 0.0f};  // how far along its slopes the next stage lies
+  for (std::size_t i = 0; i < particle_count; ++i) {
+    const Vec3 v = velocity[i], a = force[i] * inverse_mass[i];
+    if (stage == 0) {
+      start_velocity.set(i, v);
+      position_slope.set(i, {});
+      velocity_slope.set(i, {});
+    }
+    position_slope.add(i, v * kWeight[stage]);
+    velocity_slope.add(i, a * kWeight[stage]);
+    const bool last = stage == 3;
+    const float step = last ? dt : kNext[stage] * dt;
+    position.set(i, start_position[i] + (last ? position_slope[i] : v) * step);
+    velocity.set(i, start_velocity[i] + (last ? velocity_slope[i] : a) * step);
+  }
+}
+
+}  // namespace pleat

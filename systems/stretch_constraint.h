@@ -1,0 +1,28 @@
+// Limit on the elongation of edges.
+//   X. Provot, "Deformation Constraints in a Mass-Spring Model to Describe Rigid Cloth Behavior", 1995.
+//   M. Oshita, A. Makinouchi, 2001, section 4.3.
+#pragma once
+
+#include "components/garment.h"
+#include "components/stats.h"
+
+namespace pleat {
+
+/// One pass over the edges, in order: pulls the ends of each over-long edge together along it.
+///   C = |x_j - x_i| - (1 + limit) L > 0:   x_i += w_i/(w_i + w_j) C u,   x_j -= w_j/(w_i + w_j) C u
+/// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are central
+/// and weighted by inverse mass, so momentum is kept except at pins.
+/// Reads:  garment edges; inverse_mass (P) 1/kg
+/// Writes: position (P) m; stats.edges_skipped
+/// Cost:   O(E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
+struct StretchConstraint {
+  const Garment* garment = nullptr;
+  const float* inverse_mass = nullptr;
+  float limit = 0.0f;  // fraction of the rest length
+  Vec3View position;
+
+  bool validate() const;
+  void run(Stats& stats) const;
+};
+
+}  // namespace pleat
