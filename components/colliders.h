@@ -35,6 +35,7 @@ struct CapsulePose {
   Vec3 step_a, step_b;    // motion of its ends over the substep, m
   float radius = 0.0f;    // m
   float friction = 1.0f;  // multiplied by the cloth's
+  std::uint32_t index = 0;
 };
 
 }  // namespace pleat

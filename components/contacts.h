@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "components/vec3.h"
+#include "components/column.h"
 
 namespace pleat {
 
@@ -19,6 +19,19 @@ struct ContactRow {
   float push;                 // m, total distance pushed in this substep's sweeps
   bool at_particle;           // a particle row, as against one on an edge or a face
 };
+
+/// The row's point of a cloth-local column: sum of b_k x[particle_k].
+inline Vec3 contact_point(const ContactRow& row, ConstVec3View x) {
+  return x[row.particle[0]] * row.weight[0] + x[row.particle[1]] * row.weight[1] + x[row.particle[2]] * row.weight[2];
+}
+
+/// Moves the row's point by `shift`, each particle by its share: x_k += w_k b_k / (sum of w b^2) shift.
+inline void shift_contact(const ContactRow& row, const Vec3& shift, const float* inverse_mass, Vec3View x) {
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t i = row.particle[k];
+    x.add(i, shift * (inverse_mass[i] * row.weight[k] / row.inverse_mass));
+  }
+}
 
 /// A fixed-capacity list of rows in the engine's scratch memory; filled once per substep.
 struct ContactList {

@@ -7,6 +7,7 @@
 //   n = 1..8 each of the four patches is drawn with n^2 triangles: 4 n^2 in all
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 
@@ -22,10 +23,13 @@ struct InnerPoint {
   std::uint32_t patch;
   float local[3];
   float face[3];
+  std::array<float, 6> bend;  // of the face's PN triangle, at `face`
+  float fold[3];              // share of the fold over the face's edge 0, 1, 2 (1 on its middle, 0 at the corners)
 };
 
 struct TessellationPattern {
-  explicit TessellationPattern(std::pmr::memory_resource* memory) : inner(memory), indices(memory) {}
+  explicit TessellationPattern(std::pmr::memory_resource* memory)
+      : inner(memory), indices(memory), face_vertices(memory), face_triangles(memory) {}
 
   std::uint32_t level = 0;     // 0 = fan
   std::uint32_t segments = 0;  // drawn segments on each coarse edge: 4 at the fan level, else 2 n
@@ -35,6 +39,12 @@ struct TessellationPattern {
   Column<InnerPoint> inner;
   Column<std::uint32_t> indices;  // 3 a drawn triangle, counter-clockwise like the face
 
+  // The same triangles as one list for all faces, over each face's own numbering of its vertices: the corners, then the
+  // vertices along sides 0, 1 and 2 as the face runs, then the inner ones.
+  std::uint32_t vertices_per_face = 0;
+  Column<std::uint32_t> face_vertices;   // vertices_per_face a face: their drawn vertices
+  Column<std::uint32_t> face_triangles;  // 3 of a face's own numbers a triangle
+
   std::uint32_t edge_vertex(std::uint32_t edge, std::uint32_t step) const {  // step 1 .. segments - 1
     return first_edge_vertex + edge * (segments - 1) + (step - 1);
   }
@@ -42,6 +52,10 @@ struct TessellationPattern {
     return first_face_vertex + face * static_cast<std::uint32_t>(inner.size()) + inner_index;
   }
 };
+
+inline constexpr std::uint32_t kMaxTessellationLevel = 8;
+inline constexpr std::uint32_t kMaxVerticesPerFace =
+    (2 * kMaxTessellationLevel + 1) * (2 * kMaxTessellationLevel + 2) / 2;
 
 /// level: 0 (fan) .. 8. Throws std::bad_alloc.
 TessellationPattern build_tessellation(const Garment& garment, std::uint32_t level, std::pmr::memory_resource* memory);

@@ -60,9 +60,15 @@ enum {
 /* ---- handles: {index, generation}; an all-zero id is never valid ---------------------------------------------- */
 
 typedef struct pleat_world pleat_world;
-typedef struct pleat_garment { uint32_t index, generation; } pleat_garment;
-typedef struct pleat_cloth { uint32_t index, generation; } pleat_cloth;
-typedef struct pleat_collider { uint32_t index, generation; } pleat_collider;
+typedef struct pleat_garment {
+  uint32_t index, generation;
+} pleat_garment;
+typedef struct pleat_cloth {
+  uint32_t index, generation;
+} pleat_cloth;
+typedef struct pleat_collider {
+  uint32_t index, generation;
+} pleat_collider;
 
 /* ---- host services --------------------------------------------------------------------------------------------- */
 
@@ -82,16 +88,16 @@ typedef void (*pleat_line_fn)(const float from[3], const float to[3], uint32_t r
 
 typedef struct pleat_world_def {
   uint32_t size;
-  float gravity[3];        /* m/s2; default (0, -9.81, 0) */
-  float wind[3];           /* m/s, velocity of the air; default 0. Acts on cloths with drag_coefficient > 0 */
-  float air_density;       /* kg/m3; default 1.225 */
-  float max_substep;       /* s, longest internal step when a cloth's `substeps` is 0; default 1/480 */
+  float gravity[3];           /* m/s2; default (0, -9.81, 0) */
+  float wind[3];              /* m/s, velocity of the air; default 0. Acts on cloths with drag_coefficient > 0 */
+  float air_density;          /* kg/m3; default 1.225 */
+  float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/480 */
   pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up */
   pleat_free_fn free;
   void* memory_user;
-  pleat_log_fn log;        /* null (default): warnings and errors go to stderr */
+  pleat_log_fn log; /* null (default): warnings and errors go to stderr */
   void* log_user;
-  pleat_stage_fn stage;    /* null (default): no call, no clock read */
+  pleat_stage_fn stage; /* null (default): no call, no clock read */
   void* stage_user;
 } pleat_world_def;
 
@@ -129,17 +135,17 @@ typedef struct pleat_mesh_report {
 
 typedef struct pleat_garment_def {
   uint32_t size;
-  const float* positions;     /* rest shape, m */
+  const float* positions; /* rest shape, m */
   uint32_t position_stride;
   uint32_t vertex_count;
-  const uint32_t* triangles;  /* 3 indices each */
+  const uint32_t* triangles; /* 3 indices each */
   uint32_t triangle_count;
-  const float* uvs;           /* 2 floats a vertex, or null */
+  const float* uvs; /* 2 floats a vertex, or null */
   uint32_t uv_stride;
-  const uint32_t* pins;       /* vertices that follow the host (cloth_move_pins), in this order; or null */
+  const uint32_t* pins; /* vertices that follow the host (cloth_move_pins), in this order; or null */
   uint32_t pin_count;
-  const uint32_t* seams;      /* vertex pairs: edges that are seams; or null */
-  uint32_t seam_count;        /* pairs */
+  const uint32_t* seams; /* vertex pairs: edges that are seams; or null */
+  uint32_t seam_count;   /* pairs */
 } pleat_garment_def;
 
 typedef struct pleat_garment_info {
@@ -152,7 +158,7 @@ typedef struct pleat_garment_info {
 enum {
   PLEAT_INTEGRATOR_SYMPLECTIC_EULER = 0, /* default: order 1, quiet, stable to 2/omega */
   PLEAT_INTEGRATOR_EXPLICIT_EULER = 1,   /* the paper, section 5: order 1, unstable without damping */
-  PLEAT_INTEGRATOR_RUNGE_KUTTA_4 = 2     /* the paper, section 4.1: order 4 where nothing is in contact; 4 force passes */
+  PLEAT_INTEGRATOR_RUNGE_KUTTA_4 = 2 /* the paper, section 4.1: order 4 where nothing is in contact; 4 force passes */
 };
 enum {
   PLEAT_SURFACE_FLAT = 0,  /* the coarse triangles, subdivided in their planes */
@@ -167,32 +173,33 @@ enum {
 #define PLEAT_LEVEL_FAN 0u /* the paper's 18 triangles a face: 3 corner patches of 4, a fan of 6 in the middle */
 #define PLEAT_LEVEL_MAX 8u /* level n = 1..8: 4 n^2 triangles a face */
 
-/* Settings that may change while the cloth lives (cloth_set). */
+/* Settings that may change while the cloth lives (cloth_set). Filled by cloth_def_init or cloth_get. */
 typedef struct pleat_cloth_settings {
-  uint32_t integrator;      /* default symplectic Euler */
-  uint32_t substeps;        /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for; at most 64 */
-  uint32_t sweeps;          /* passes of strain limit and contact in a substep; default 3, 1..64 */
-  float density;            /* kg/m2; default 0.2 */
-  float stiffness;          /* k of eq (1), N/m; default 30. Small on purpose: the strain limit holds the length */
-  float stretch_limit;      /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
-  float bend_stiffness;     /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
-  float edge_damping;       /* rate at which an edge's stretching motion dies, 1/s; default 4 */
-  float bend_damping;       /* the same for the angle across an edge, 1/s; default 4 */
-  float air_damping;        /* rate at which all motion dies, 1/s; default 0.1 */
-  float drag_coefficient;   /* C_d of a face in the wind; default 0: no face drag */
-  float thickness;          /* distance kept from bodies, m; default 0.005 */
-  float friction;           /* Coulomb coefficient, multiplied by the collider's; default 0.2 */
-  uint32_t face_response;   /* default weighted */
-  uint32_t surface;         /* default PLEAT_SURFACE_PLEAT */
-  uint32_t level;           /* default PLEAT_LEVEL_FAN */
+  uint32_t size;
+  uint32_t integrator;  /* default symplectic Euler */
+  uint32_t substeps;    /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for; at most 64 */
+  uint32_t sweeps;      /* passes of strain limit and contact in a substep; default 3, 1..64 */
+  float density;        /* kg/m2; default 0.2 */
+  float stiffness;      /* k of eq (1), N/m; default 30. Small on purpose: the strain limit holds the length */
+  float stretch_limit;  /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
+  float bend_stiffness; /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
+  float edge_damping;   /* rate at which an edge's stretching motion dies, 1/s; default 4 */
+  float bend_damping;   /* the same for the angle across an edge, 1/s; default 4 */
+  float air_damping;    /* rate at which all motion dies, 1/s; default 0.1 */
+  float drag_coefficient; /* C_d of a face in the wind; default 0: no face drag */
+  float thickness;        /* distance kept from bodies, m; default 0.005 */
+  float friction;         /* Coulomb coefficient, multiplied by the collider's; default 0.2 */
+  uint32_t face_response; /* default weighted */
+  uint32_t surface;       /* default PLEAT_SURFACE_PLEAT */
+  uint32_t level;         /* default PLEAT_LEVEL_FAN */
 } pleat_cloth_settings;
 
 typedef struct pleat_cloth_def {
   uint32_t size;
   pleat_garment garment;
-  const float* positions;  /* start positions, garment order; null: the rest shape */
+  const float* positions; /* start positions, garment order; null: the rest shape */
   uint32_t position_stride;
-  pleat_cloth_settings settings;
+  pleat_cloth_settings settings; /* the last field, so that it can grow */
 } pleat_cloth_def;
 
 typedef struct pleat_cloth_info {
@@ -206,11 +213,11 @@ typedef struct pleat_cloth_info {
 /* Where and how drawn vertices are written: an engine's interleaved vertex buffer can be the target. */
 typedef struct pleat_vertex_target {
   void* data;
-  uint32_t stride;           /* bytes from one vertex to the next */
-  uint32_t capacity;         /* vertices */
-  uint32_t position_offset;  /* bytes to float[3]; PLEAT_NO_ATTRIBUTE leaves one out */
-  uint32_t normal_offset;    /* bytes to float[3], unit length */
-  uint32_t uv_offset;        /* bytes to float[2]; zeros when the garment has none */
+  uint32_t stride;          /* bytes from one vertex to the next */
+  uint32_t capacity;        /* vertices */
+  uint32_t position_offset; /* bytes to float[3]; PLEAT_NO_ATTRIBUTE leaves one out */
+  uint32_t normal_offset;   /* bytes to float[3], unit length */
+  uint32_t uv_offset;       /* bytes to float[2]; zeros when the garment has none */
 } pleat_vertex_target;
 
 /* ---- colliders ------------------------------------------------------------------------------------------------- */
@@ -222,21 +229,21 @@ enum {
 typedef struct pleat_collider_def {
   uint32_t size;
   uint32_t shape;
-  float a[3], b[3];          /* capsule: ends of the core, m */
-  float radius;              /* capsule: m, >= 0 */
-  const float* positions;    /* mesh: m */
+  float a[3], b[3];       /* capsule: ends of the core, m */
+  float radius;           /* capsule: m, >= 0 */
+  const float* positions; /* mesh: m */
   uint32_t position_stride;
   uint32_t vertex_count;
   const uint32_t* triangles; /* mesh: 3 indices each */
   uint32_t triangle_count;
-  float friction;            /* multiplied by the cloth's; default 1 */
+  float friction; /* multiplied by the cloth's; default 1 */
 } pleat_collider_def;
 
 /* ---- what happened ---------------------------------------------------------------------------------------------- */
 
 /* Counts since world_create, except where `last tick` is said. */
 typedef struct pleat_stats {
-  uint32_t size;               /* set by the caller to sizeof(pleat_stats) */
+  uint32_t size; /* set by the caller to sizeof(pleat_stats) */
   uint64_t ticks, substeps;
   uint64_t particle_contacts;  /* rows that pushed, last tick */
   uint64_t face_contacts;      /* rows that pushed, last tick */
@@ -249,20 +256,20 @@ typedef struct pleat_stats {
 
 /* What world_debug_draw shows. */
 enum {
-  PLEAT_DEBUG_COARSE_EDGES = 1u << 0,   /* grey */
-  PLEAT_DEBUG_BASE_NORMALS = 1u << 1,   /* yellow: before normal control (the paper, figure 8d) */
-  PLEAT_DEBUG_FORCE_NORMALS = 1u << 2,  /* orange: after it */
-  PLEAT_DEBUG_EDGE_LENGTH = 1u << 3,    /* purple: from an edge's midpoint to where edge length control moved it */
-  PLEAT_DEBUG_COLLIDERS = 1u << 4       /* blue: capsule cores and mesh edges */
+  PLEAT_DEBUG_COARSE_EDGES = 1u << 0,  /* grey */
+  PLEAT_DEBUG_BASE_NORMALS = 1u << 1,  /* yellow: before normal control (the paper, figure 8d) */
+  PLEAT_DEBUG_FORCE_NORMALS = 1u << 2, /* orange: after it */
+  PLEAT_DEBUG_EDGE_LENGTH = 1u << 3,   /* purple: from an edge's midpoint to where edge length control moved it */
+  PLEAT_DEBUG_COLLIDERS = 1u << 4      /* blue: capsule cores and mesh edges */
 };
 
 /* ---- the table -------------------------------------------------------------------------------------------------- */
 
 typedef struct pleat_api {
-  uint32_t size;         /* of this struct: later minor versions append */
+  uint32_t size; /* of this struct: later minor versions append */
   uint32_t major;
   const char* version;
-  uint32_t features;     /* PLEAT_FEATURE_* bits */
+  uint32_t features; /* PLEAT_FEATURE_* bits */
 
   pleat_result (*world_def_init)(pleat_world_def* def, size_t size);
   pleat_result (*world_create)(const pleat_world_def* def, pleat_world** world);
@@ -297,6 +304,7 @@ typedef struct pleat_api {
   pleat_result (*cloth_def_init)(pleat_cloth_def* def, size_t size);
   pleat_result (*cloth_create)(pleat_world* world, const pleat_cloth_def* def, pleat_cloth* cloth);
   pleat_result (*cloth_destroy)(pleat_world* world, pleat_cloth cloth);
+  /* settings->size says how much of it the caller knows. */
   pleat_result (*cloth_get)(const pleat_world* world, pleat_cloth cloth, pleat_cloth_settings* settings);
   pleat_result (*cloth_set)(pleat_world* world, pleat_cloth cloth, const pleat_cloth_settings* settings);
   pleat_result (*cloth_info)(const pleat_world* world, pleat_cloth cloth, pleat_cloth_info* info);
@@ -304,16 +312,15 @@ typedef struct pleat_api {
   pleat_result (*cloth_move_pins)(pleat_world* world, pleat_cloth cloth, const float* positions, uint32_t stride,
                                   uint32_t count);
   /* Coarse particles; either pointer may be null. capacity: particles. */
-  pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions,
-                                       float* velocities, uint32_t capacity);
+  pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions, float* velocities,
+                                       uint32_t capacity);
   /* Replaces all positions and velocities (null: zero): load a saved state, or place the cloth anew. Pins move too. */
   pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
                                         const float* velocities, uint32_t count);
-  /* The drawn surface as of the last tick. */
+  /* The drawn surface, as of the last tick or of the last call that made, placed or set the cloth. */
   pleat_result (*cloth_read_vertices)(const pleat_world* world, pleat_cloth cloth, const pleat_vertex_target* target);
   /* 3 indices a drawn triangle; constant while the level is. capacity: indices. */
-  pleat_result (*cloth_read_indices)(const pleat_world* world, pleat_cloth cloth, uint32_t* indices,
-                                     uint32_t capacity);
+  pleat_result (*cloth_read_indices)(const pleat_world* world, pleat_cloth cloth, uint32_t* indices, uint32_t capacity);
 
   pleat_result (*collider_def_init)(pleat_collider_def* def, size_t size);
   pleat_result (*collider_create)(pleat_world* world, const pleat_collider_def* def, pleat_collider* collider);

@@ -1,0 +1,82 @@
+// The curve that a PN triangle puts over one edge, and the fold that makes it longer.
+//   A. Vlachos, J. Peters, C. Boyd, J. L. Mitchell, "Curved PN Triangles", 2001.
+// It depends on nothing but the edge's two ends and their normals, so the two faces at the edge share it:
+//   c(t) = a + t d - t (1 - t) ((1 - t) u + t v),   d = b - a,   u = (d.Na) Na,   v = -(d.Nb) Nb
+// The fold moves the middle by h n and fades out towards both ends, which keep their tangents:
+//   c(t) + h n s(2t),  s(x) = x^2 (3 - 2x), and mirrored beyond the middle.
+// That is the cubic split in two by de Casteljau, with the joint and its two neighbours moved by h n.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "components/vec3.h"
+
+namespace pleat {
+
+/// How far the fold has risen at t of the edge: 0 and flat at the ends, 1 and flat in the middle.
+constexpr float fold_shape(float t) {
+  const float x = 2.0f * (t < 0.5f ? t : 1.0f - t);
+  return x * x * (3.0f - 2.0f * x);
+}
+
+struct PnEdge {
+  Vec3 a, d, u, v;
+
+  /// a, b: the ends, m; na, nb: their unit normals.
+  PnEdge(const Vec3& a_, const Vec3& b, const Vec3& na, const Vec3& nb)
+      : a(a_), d(b - a_), u(na * dot(d, na)), v(nb * -dot(d, nb)) {}
+
+  Vec3 point(float t) const { return a + d * t - (u * (1.0f - t) + v * t) * (t * (1.0f - t)); }
+  Vec3 middle() const { return a + d * 0.5f - (u + v) * 0.125f; }
+  /// Along the tangent in the middle; not unit.
+  Vec3 middle_tangent() const { return d * 4.0f + (u - v); }
+};
+
+/// One point of the quadrature along an edge: derivatives of the above, with c' = d + u_rate u + v_rate v.
+struct PnEdgeNode {
+  float weight;
+  float u_rate, v_rate, fold_rate;
+  float uu, vv, uv;  // |c'|^2 = d.d + uu u.u + vv v.v + uv u.v, for d.u = u.u and d.v = -v.v
+};
+
+/// Five Gauss points on each half of the edge: the fold is a cubic on each.
+inline constexpr std::array<PnEdgeNode, 10> kPnEdgeNodes = [] {
+  constexpr float kPoint[5] = {0.0469100770f, 0.2307653449f, 0.5f, 0.7692346551f, 0.9530899230f};
+  constexpr float kWeight[5] = {0.1184634425f, 0.2393143352f, 0.2844444444f, 0.2393143352f, 0.1184634425f};
+  std::array<PnEdgeNode, 10> nodes{};
+  for (std::size_t i = 0; i < 10; ++i) {
+    const float x = kPoint[i % 5], t = 0.5f * (x + (i < 5 ? 0.0f : 1.0f));
+    const float u_rate = (1.0f - t) * (3.0f * t - 1.0f), v_rate = t * (3.0f * t - 2.0f);
+    const float fold_rate = (i < 5 ? 12.0f : -12.0f) * x * (1.0f - x);
+    nodes[i] = {
+        0.5f * kWeight[i % 5], u_rate, v_rate, fold_rate, u_rate * u_rate + 2 * u_rate, v_rate * v_rate - 2.0f * v_rate,
+        2.0f * u_rate * v_rate};
+  }
+  return nodes;
+}();
+
+/// Squared speeds below this, m^2, are taken for it: a collapsed edge has a length and no direction.
+inline constexpr float kLeastSquaredSpeed = 1e-16f;
+
+/// |c'|^2 at each node, m^2.
+inline std::array<float, 10> squared_speeds(const PnEdge& c) {
+  const float dd = dot(c.d, c.d), uu = dot(c.u, c.u), vv = dot(c.v, c.v), uv = dot(c.u, c.v);
+  std::array<float, 10> speeds{};
+  for (std::size_t i = 0; i < 10; ++i) {
+    const PnEdgeNode& q = kPnEdgeNodes[i];
+    const float s = dd + q.uu * uu + q.vv * vv + q.uv * uv;
+    speeds[i] = s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed;
+  }
+  return speeds;
+}
+
+/// Length of the curve without a fold, m. Every user gets the same bits for the same edge.
+inline float curve_length(const std::array<float, 10>& squared_speed) {
+  float l = 0.0f;
+  for (std::size_t i = 0; i < 10; ++i) l += kPnEdgeNodes[i].weight * std::sqrt(squared_speed[i]);
+  return l;
+}
+
+}  // namespace pleat

@@ -1,0 +1,150 @@
+#include "components/tessellation_pattern.h"
+
+#include "components/pn_triangle.h"
+
+namespace pleat {
+namespace {
+
+/// A face's own numbering of its vertices, on a triangular grid of n steps a side.
+struct FaceGrid {
+  std::uint32_t n;
+
+  std::uint32_t corner(std::uint32_t k) const { return k; }
+  /// The vertex `step` steps along side k, from corner k on.
+  std::uint32_t side(std::uint32_t k, std::uint32_t step) const { return 3 + k * (n - 1) + step - 1; }
+  std::uint32_t inner(std::uint32_t index) const { return 3 * n + index; }
+
+  /// The grid point j steps towards corner 1 and k steps towards corner 2. Inner points are numbered row by row.
+  std::uint32_t at(std::uint32_t j, std::uint32_t k) const {
+    const std::uint32_t i = n - j - k;
+    if (i == n) return corner(0);
+    if (j == n) return corner(1);
+    if (k == n) return corner(2);
+    if (k == 0) return side(0, j);
+    if (i == 0) return side(1, k);
+    if (j == 0) return side(2, i);
+    return inner((k - 1) * (n - 1) - (k - 1) * k / 2 + j - 1);
+  }
+};
+
+/// How the folds over the three edges reach into the face: each of the four patches is given the cubic height field
+/// whose control points at and next to an edge's middle are raised by one, so that it joins its neighbours and is
+/// fold_shape() on the sides.  S_i = l_i^2 (3 - 2 l_i) + 2 l_0 l_1 l_2 at the patch's corner i, l = local.
+void set_fold_shares(InnerPoint& p) {
+  const float* l = p.local;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const float share = l[i] * l[i] * (3.0f - 2.0f * l[i]) + 2.0f * l[0] * l[1] * l[2];
+    if (p.patch == 3) {
+      p.fold[i] = share;
+    } else if (i > 0) {
+      p.fold[(p.patch + (i == 1 ? 0 : 2)) % 3] = share;
+    }
+  }
+}
+
+/// a, b, c: barycentrics in the face, as counts of 1/n.
+InnerPoint inner_point(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t n) {
+  const auto part = [n](std::uint32_t count) { return static_cast<float>(count) / static_cast<float>(n); };
+  const std::uint32_t count[3] = {a, b, c};
+  InnerPoint p{.patch = 3, .local = {}, .face = {part(a), part(b), part(c)}, .bend = {}, .fold = {}};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (2 * count[k] >= n) p.patch = k;
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (p.patch == 3) {
+      p.local[k] = part(n - 2 * count[(k + 2) % 3]);
+    } else {
+      p.local[k] = part(2 * count[(p.patch + k) % 3] - (k == 0 ? n : 0));
+    }
+  }
+  p.bend = bend_weights(p.face);
+  set_fold_shares(p);
+  return p;
+}
+
+void add(Column<std::uint32_t>& triangles, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  triangles.push_back(a), triangles.push_back(b), triangles.push_back(c);
+}
+
+void add_fan(Column<std::uint32_t>& triangles) {
+  const FaceGrid face{4};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t before = (k + 2) % 3, across = face.inner(k), center = face.inner(3);
+    const std::uint32_t next = face.side(k, 1), next_middle = face.side(k, 2);
+    const std::uint32_t last = face.side(before, 3), last_middle = face.side(before, 2);
+    add(triangles, face.corner(k), next, last);
+    add(triangles, next, next_middle, across);
+    add(triangles, across, last_middle, last);
+    add(triangles, next, across, last);
+    add(triangles, center, across, next_middle);
+    add(triangles, center, last_middle, across);
+  }
+}
+
+void add_grid(std::uint32_t n, Column<std::uint32_t>& triangles) {
+  const FaceGrid face{n};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    for (std::uint32_t j = 0; j + k < n; ++j) {
+      add(triangles, face.at(j, k), face.at(j + 1, k), face.at(j, k + 1));
+      if (j + k + 1 < n) add(triangles, face.at(j + 1, k), face.at(j + 1, k + 1), face.at(j, k + 1));
+    }
+  }
+}
+
+void add_inner_points(bool fan, std::uint32_t n, Column<InnerPoint>& inner) {
+  if (fan) {
+    inner.push_back(inner_point(2, 1, 1, 4));
+    inner.push_back(inner_point(1, 2, 1, 4));
+    inner.push_back(inner_point(1, 1, 2, 4));
+    inner.push_back(inner_point(1, 1, 1, 3));
+    return;
+  }
+  for (std::uint32_t k = 1; k < n; ++k) {
+    for (std::uint32_t j = 1; j + k < n; ++j) inner.push_back(inner_point(n - j - k, j, k, n));
+  }
+}
+
+/// The drawn vertices of face f in the face's own order.
+void set_face_vertices(const Garment& garment, std::uint32_t f, TessellationPattern& pattern) {
+  std::uint32_t* vertex = &pattern.face_vertices[std::size_t{f} * pattern.vertices_per_face];
+  for (std::uint32_t k = 0; k < 3; ++k) *vertex++ = garment.face_particle[k][f];
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t edge = garment.face_edge[k][f];
+    const bool forward = garment.edge_particle[0][edge] == garment.face_particle[k][f];
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      *vertex++ = pattern.edge_vertex(edge, forward ? step : pattern.segments - step);
+    }
+  }
+  for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) *vertex++ = pattern.face_vertex(f, i);
+}
+
+}  // namespace
+
+TessellationPattern build_tessellation(const Garment& garment, std::uint32_t level, std::pmr::memory_resource* memory) {
+  TessellationPattern pattern(memory);
+  const bool fan = level == 0;
+  pattern.level = level;
+  pattern.segments = fan ? 4 : 2 * level;
+  add_inner_points(fan, pattern.segments, pattern.inner);
+  fan ? add_fan(pattern.face_triangles) : add_grid(pattern.segments, pattern.face_triangles);
+
+  pattern.first_edge_vertex = garment.particle_count;
+  pattern.first_face_vertex = pattern.first_edge_vertex + garment.edge_count * (pattern.segments - 1);
+  pattern.vertex_count = pattern.face_vertex(garment.face_count, 0);
+  pattern.vertices_per_face = 3 * pattern.segments + static_cast<std::uint32_t>(pattern.inner.size());
+  const std::size_t indices_per_face = pattern.face_triangles.size();
+  pattern.triangle_count = garment.face_count * static_cast<std::uint32_t>(indices_per_face / 3);
+
+  pattern.face_vertices.resize(std::size_t{garment.face_count} * pattern.vertices_per_face);
+  pattern.indices.resize(garment.face_count * indices_per_face);
+  for (std::uint32_t f = 0; f < garment.face_count; ++f) {
+    set_face_vertices(garment, f, pattern);
+    const std::uint32_t* vertex = &pattern.face_vertices[std::size_t{f} * pattern.vertices_per_face];
+    for (std::size_t i = 0; i < indices_per_face; ++i) {
+      pattern.indices[f * indices_per_face + i] = vertex[pattern.face_triangles[i]];
+    }
+  }
+  return pattern;
+}
+
+}  // namespace pleat

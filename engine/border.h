@@ -1,0 +1,171 @@
+// What every call of the C interface does at its border: check what comes in, let no exception out.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "engine/world.h"
+
+namespace pleat {
+
+/// A host's mistake: becomes the call's result, and a line in the log.
+struct Refusal {
+  pleat_result result;
+  std::string line;
+};
+
+[[noreturn]] inline void refuse(std::string line, pleat_result result = PLEAT_ERROR_ARGUMENT) {
+  throw Refusal{result, std::move(line)};
+}
+
+inline std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+/// Runs `body`; its refusals and failures are logged and become results. The log of `world`, or stderr when it is null.
+template <class Body>
+pleat_result guarded(const World* world, const char* call, Body body) noexcept {
+  const auto log = [&](const std::string& line) noexcept {
+    try {
+      if (world != nullptr) {
+        world->log(PLEAT_LOG_ERROR, call + (": " + line));
+      } else {
+        std::fprintf(stderr, "pleat: %s: %s\n", call, line.c_str());
+      }
+    } catch (...) {
+    }
+  };
+  try {
+    body();
+    return PLEAT_OK;
+  } catch (const Refusal& refusal) {
+    log(refusal.line);
+    return refusal.result;
+  } catch (const std::bad_alloc&) {
+    log("out of memory");
+    return PLEAT_ERROR_MEMORY;
+  } catch (...) {
+    log("unexpected failure inside pleat");
+    return PLEAT_ERROR_INTERNAL;
+  }
+}
+
+inline void need_pointer(const char* name, const void* pointer) {
+  if (pointer == nullptr) refuse(std::string(name) + " is null");
+}
+
+inline void need_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high)) {  // also false for NaN
+    refuse(std::string(name) + " is " + text(value) + ", must be from " + text(low) + " to " + text(high));
+  }
+}
+
+inline void need_finite(const char* name, const float v[3]) {
+  need_pointer(name, v);
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(v[k])) refuse(std::string(name) + "[" + std::to_string(k) + "] is " + text(v[k]));
+  }
+}
+
+/// Strided vectors as the host gives them.
+class HostVectors {
+ public:
+  HostVectors(const char* name, const float* data, std::size_t stride, std::size_t count, std::size_t width = 3)
+      : data_(reinterpret_cast<const char*>(data)), stride_(stride != 0 ? stride : width * sizeof(float)) {
+    if (count == 0) return;
+    need_pointer(name, data);
+    if (stride_ < width * sizeof(float)) {
+      refuse(std::string(name) + "'s stride is " + std::to_string(stride) + " bytes, less than one element");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < width; ++k) {
+        float value;
+        std::memcpy(&value, data_ + i * stride_ + k * sizeof(float), sizeof value);
+        // Beyond 10^6 m single precision no longer tells millimetres apart by far.
+        if (!(std::abs(value) <= 1e6f)) {
+          refuse(std::string(name) + "[" + std::to_string(i) + "][" + std::to_string(k) + "] is " + text(value));
+        }
+      }
+    }
+  }
+  Vec3 operator[](std::size_t i) const {
+    Vec3 v;
+    std::memcpy(&v, data_ + i * stride_, sizeof v);
+    return v;
+  }
+
+ private:
+  const char* data_;
+  std::size_t stride_;
+};
+
+/// `defaults` overlaid with what the caller's struct, maybe an older and smaller one, says.
+template <class Def>
+Def read_def(const char* name, const Def* given, const Def& defaults) {
+  need_pointer(name, given);
+  if (given->size < sizeof given->size || given->size > sizeof(Def)) {
+    refuse(std::string(name) + ".size is " + std::to_string(given->size) + ", this library knows up to " +
+           std::to_string(sizeof(Def)) + ": fill it with its init function, and use a library as new as the header");
+  }
+  Def def = defaults;
+  std::memcpy(static_cast<void*>(&def), given, given->size);
+  def.size = sizeof(Def);
+  return def;
+}
+
+/// Fills the first `size` bytes of the caller's struct with defaults.
+template <class Def>
+pleat_result init_def(const char* call, Def* def, std::size_t size, const Def& defaults) noexcept {
+  return guarded(nullptr, call, [&] {
+    need_pointer("def", def);
+    need_range("size", static_cast<double>(size), sizeof(std::uint32_t), sizeof(Def));
+    std::memcpy(static_cast<void*>(def), &defaults, size);
+    def->size = static_cast<std::uint32_t>(size);
+  });
+}
+
+inline World& need_world(pleat_world* world) {
+  need_pointer("world", world);
+  return *reinterpret_cast<World*>(world);
+}
+inline const World& need_world(const pleat_world* world) { return need_world(const_cast<pleat_world*>(world)); }
+inline const World* as_world(const pleat_world* world) { return reinterpret_cast<const World*>(world); }
+
+template <class Id>
+std::uint32_t need_handle(const char* name, const Registry& registry, Id id) {
+  const auto position = registry.find({id.index, id.generation});
+  if (!position) {
+    refuse(std::string(name) + " {" + std::to_string(id.index) + ", " + std::to_string(id.generation) +
+               "} names nothing that lives",
+           PLEAT_ERROR_HANDLE);
+  }
+  return *position;
+}
+
+inline ClothRecord& need_cloth(World& world, pleat_cloth id) {
+  return world.clothes[need_handle("cloth", world.cloth_handles, id)];
+}
+inline const ClothRecord& need_cloth(const World& world, pleat_cloth id) {
+  return world.clothes[need_handle("cloth", world.cloth_handles, id)];
+}
+inline const GarmentRecord& need_garment(const World& world, pleat_garment id) {
+  return *world.garments[need_handle("garment", world.garment_handles, id)];
+}
+
+inline void need_capacity(const char* name, std::size_t capacity, std::size_t needed) {
+  if (capacity < needed) {
+    refuse(std::string(name) + " is " + std::to_string(capacity) + ", " + std::to_string(needed) + " are needed",
+           PLEAT_ERROR_CAPACITY);
+  }
+}
+
+inline void need_compiled(bool has, const char* what, const char* option) {
+  if (!has) refuse(std::string(what) + " is not compiled in (" + option + "=OFF)", PLEAT_ERROR_NOT_COMPILED);
+}
+
+}  // namespace pleat

@@ -1,0 +1,241 @@
+#include "engine/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "engine/schedule_table.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/collision_bodies.h"
+#endif
+
+namespace pleat {
+namespace {
+
+constexpr std::uint32_t kMostSubsteps = 64;
+constexpr std::size_t kMostCapsulesPerCloth = 1024;  // near one cloth at a time
+constexpr std::size_t kContactsPerParticle = 16;     // room for rows; what does not fit is counted
+
+Plan plan_of(const World& world, const ClothRecord& cloth) {
+  Plan plan = 0;
+  const std::span<const Row> rows = schedule_table();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].left_out(world, cloth) == nullptr) plan |= Plan{1} << r;
+  }
+  return plan;
+}
+
+/// Makes room for columns that only some settings use, and for the scratch of a tick.
+void make_room(World& world, const ClothRecord& cloth) {
+  const std::size_t particles = world.particles.mass.size();
+  if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
+    world.runge_kutta.start_velocity.resize(particles);
+    world.runge_kutta.position_slope.resize(particles);
+    world.runge_kutta.velocity_slope.resize(particles);
+  }
+  const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
+  if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(particles);
+  const bool folded = curved && cloth.settings.surface != PLEAT_SURFACE_PN;
+  if (folded || world.surface.fold.size() != 0) {
+    std::size_t edges = 0;
+    for (const ClothRecord& other : world.clothes) edges += padded(other.garment().edge_count);
+    world.surface.fold.resize(edges);
+    world.surface.fold_height.resize(edges);
+  }
+  if (!world.colliders.empty()) {
+    const Garment& g = cloth.garment();
+    const auto at_least = [](auto& column, std::size_t size) {
+      if (column.size() < size) column.resize(size);
+    };
+    at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
+    at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
+    at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
+  }
+}
+
+void run_phase(ClothTick& t, Phase phase) {
+  const std::span<const Row> rows = schedule_table();
+  const pleat_world_def& host = t.world.def;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].phase != phase || (t.cloth.plan >> r & 1) == 0) continue;
+    if (host.stage != nullptr) host.stage(rows[r].name, 1, host.stage_user);
+    rows[r].run(t);
+    if (host.stage != nullptr) host.stage(rows[r].name, 0, host.stage_user);
+  }
+}
+
+void copy(const Vec3View& to, const ConstVec3View& from, std::size_t count) {
+  std::copy_n(from.x, count, to.x);
+  std::copy_n(from.y, count, to.y);
+  std::copy_n(from.z, count, to.z);
+}
+
+void run_substep(ClothTick& t) {
+  const std::size_t n = t.garment.particle_count;
+  run_phase(t, Phase::kSubstepBegin);
+  copy(t.previous, t.position, n);
+  const int stages = t.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? 4 : 1;
+  for (t.stage = 0; t.stage < stages; ++t.stage) {
+    std::fill_n(t.force.x, n, 0.0f);
+    std::fill_n(t.force.y, n, 0.0f);
+    std::fill_n(t.force.z, n, 0.0f);
+    run_phase(t, Phase::kStage);
+  }
+  copy(t.predicted, t.position, n);
+  t.world.contact_count = 0;
+  run_phase(t, Phase::kContact);
+  for (std::uint32_t sweep = 0; sweep < t.settings.sweeps; ++sweep) run_phase(t, Phase::kSweep);
+  run_phase(t, Phase::kSubstepEnd);
+}
+
+std::uint32_t substeps_for(const World& world, const ClothRecord& cloth, float dt) {
+  if (cloth.settings.substeps != 0) return cloth.settings.substeps;
+  // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
+  const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(world.def.max_substep) - 1e-3);
+  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
+}
+
+void tick_cloth(World& world, ClothRecord& cloth, float dt) {
+  ClothTick t(world, cloth);
+  const std::uint32_t n = substeps_for(world, cloth, dt);
+  t.dt = dt / static_cast<float>(n);
+  world.contact_count = 0;
+  for (std::uint32_t s = 0; s < n; ++s) {
+    t.t0 = static_cast<float>(s) / static_cast<float>(n);
+    t.t1 = static_cast<float>(s + 1) / static_cast<float>(n);
+    run_substep(t);
+  }
+  run_phase(t, Phase::kFrameEnd);
+  cloth.substeps_taken = n;
+  world.substeps += n;
+}
+
+/// What was next becomes previous: a pin or body that is not moved again stands still.
+void settle_poses(World& world) {
+  copy(world.pin_previous.view(), world.pin_next.view(), world.pin_next.size());
+  CapsuleColumns& c = world.capsules;
+  copy(c.previous_a.view(), c.next_a.view(), c.size());
+  copy(c.previous_b.view(), c.next_b.view(), c.size());
+  for (MeshRecord& record : world.meshes) {
+    if (record.stale_ticks == 0) continue;
+    copy(record.mesh.previous.view(), record.mesh.next.view(), record.mesh.next.size());
+  }
+}
+
+/// Files the bodies of this tick in their trees.
+void update_bodies([[maybe_unused]] World& world) {
+#ifdef PLEAT_WITH_COLLISION
+  if (world.bodies == nullptr) return;
+  world.bodies->update_capsules(world.capsules);
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    MeshRecord& record = world.meshes[i];
+    if (record.stale_ticks == 0) continue;
+    world.bodies->update_mesh(i, record.mesh);
+    --record.stale_ticks;
+  }
+#endif
+}
+
+const char* phase_name(Phase phase) {
+  switch (phase) {
+    case Phase::kSubstepBegin:
+      return "substep begin";
+    case Phase::kStage:
+      return "stage";
+    case Phase::kContact:
+      return "contact";
+    case Phase::kSweep:
+      return "sweep";
+    case Phase::kSubstepEnd:
+      return "substep end";
+    case Phase::kFrameEnd:
+      return "frame end";
+  }
+  return "";
+}
+
+}  // namespace
+
+ClothTick::ClothTick(World& w, ClothRecord& c)
+    : world(w),
+      cloth(c),
+      garment(c.garment()),
+      settings(c.settings),
+      position(w.particles.position.view().from(c.particle_begin)),
+      velocity(w.particles.velocity.view().from(c.particle_begin)),
+      force(w.particles.force.view().from(c.particle_begin)),
+      previous(w.particles.previous.view().from(c.particle_begin)),
+      predicted(w.particles.predicted.view().from(c.particle_begin)),
+      inverse_mass(w.particles.inverse_mass.data() + c.particle_begin),
+      mass(w.particles.mass.data() + c.particle_begin),
+      pin_previous(w.pin_previous.view().from(c.pin_begin)),
+      pin_next(w.pin_next.view().from(c.pin_begin)) {
+  if (w.surface.normal.size() != 0) normal = w.surface.normal.view().from(c.particle_begin);
+  if (w.surface.fold.size() != 0) {
+    fold = w.surface.fold.view().from(c.edge_begin);
+    fold_height = w.surface.fold_height.data() + c.edge_begin;
+  }
+  if (w.drawn.position.size() != 0) {
+    drawn_position = w.drawn.position.view().from(c.drawn_begin);
+    drawn_normal = w.drawn.normal.view().from(c.drawn_begin);
+  }
+}
+
+void refresh(World& world, ClothRecord& cloth) {
+  make_room(world, cloth);
+  cloth.plan = plan_of(world, cloth);
+  ClothTick t(world, cloth);
+  run_phase(t, Phase::kFrameEnd);
+}
+
+void replan(World& world) {
+  for (ClothRecord& cloth : world.clothes) {
+    make_room(world, cloth);
+    cloth.plan = plan_of(world, cloth);
+  }
+}
+
+void tick(World& world, float dt) {
+  ++world.ticks;
+  world.stats.particle_contacts = world.stats.face_contacts = 0;
+  update_bodies(world);
+  for (ClothRecord& cloth : world.clothes) tick_cloth(world, cloth, dt);
+  settle_poses(world);
+}
+
+void explain(const World& world, pleat_text_fn write, void* user) {
+  for (const Row& row : schedule_table()) {
+    std::string line = row.name;
+    line.resize(std::max<std::size_t>(line.size() + 1, 26), ' ');
+    line += phase_name(row.phase);
+    line.resize(std::max<std::size_t>(line.size() + 1, 42), ' ');
+    std::size_t running = 0;
+    const char* why = "no cloth";
+    for (const ClothRecord& cloth : world.clothes) {
+      const char* reason = row.left_out(world, cloth);
+      if (reason == nullptr) {
+        ++running;
+      } else {
+        why = reason;
+      }
+    }
+    if (running == 0) {
+      line += std::string("left out: ") + why;
+    } else if (running == world.clothes.size()) {
+      line += "run";
+    } else {
+      line += "run for " + std::to_string(running) + " of " + std::to_string(world.clothes.size()) +
+              " cloths, left out of the others: " + why;
+    }
+    write(line.c_str(), user);
+  }
+#ifndef PLEAT_WITH_COLLISION
+  write("collision                                 left out: not compiled in (PLEAT_COLLISION=OFF)", user);
+#endif
+#ifndef PLEAT_WITH_SMOOTHING
+  write("smoothing                                 left out: not compiled in (PLEAT_SMOOTHING=OFF)", user);
+#endif
+}
+
+}  // namespace pleat

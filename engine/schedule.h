@@ -1,0 +1,29 @@
+// The engine loop: one table says which systems exist, when each runs, and for which cloths it is left out.
+//
+//   tick                          once, for the world
+//   for each cloth:
+//     substep begin               pins and colliders take their places
+//     stage                       forces, then integration; Runge-Kutta repeats it four times
+//     contact                     contact rows at the predicted positions
+//     sweep                       repeated: strain limit and contact converge together
+//     substep end                 contact has the last word; velocities
+//     frame end                   the drawn surface
+#pragma once
+
+#include "engine/world.h"
+
+namespace pleat {
+
+/// Decides anew which systems `cloth` needs, makes room for the optional columns that they use, and brings its drawn
+/// surface up to date. To be called whenever the cloth, its settings or its place changed. Throws std::bad_alloc.
+void refresh(World& world, ClothRecord& cloth);
+/// The same decision for all cloths, after the scene's colliders, gravity or wind changed. Throws std::bad_alloc.
+void replan(World& world);
+
+/// Advances the world by dt seconds. Allocates nothing once each cloth has been through a tick.
+void tick(World& world, float dt);
+
+/// Writes the plan, a line per system.
+void explain(const World& world, pleat_text_fn write, void* user);
+
+}  // namespace pleat

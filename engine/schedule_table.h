@@ -1,0 +1,45 @@
+// A row of the schedule, and what a system gets to work on.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/world.h"
+
+namespace pleat {
+
+enum class Phase : std::uint32_t { kSubstepBegin, kStage, kContact, kSweep, kSubstepEnd, kFrameEnd };
+
+/// One cloth during one tick: the views of its ranges, and where in the tick it is.
+struct ClothTick {
+  World& world;
+  ClothRecord& cloth;
+  const Garment& garment;
+  const pleat_cloth_settings& settings;
+
+  float dt = 0.0f;             // s, of the present substep
+  float t0 = 0.0f, t1 = 1.0f;  // the present substep's begin and end as fractions of the tick
+  int stage = 0;               // of the integrator
+
+  Vec3View position, velocity, force, previous, predicted;
+  const float* inverse_mass;
+  const float* mass;
+  ConstVec3View pin_previous, pin_next;
+  Vec3View normal, fold, drawn_position, drawn_normal;  // null where no cloth needs them
+  float* fold_height = nullptr;
+
+  ClothTick(World& w, ClothRecord& c);
+};
+
+struct Row {
+  Phase phase;
+  const char* name;
+  /// Null where the cloth needs the system; else why it does not.
+  const char* (*left_out)(const World&, const ClothRecord&);
+  void (*run)(ClothTick&);
+};
+
+/// All systems of this build, in the order in which they run.
+std::span<const Row> schedule_table();
+
+}  // namespace pleat

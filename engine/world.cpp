@@ -1,0 +1,291 @@
+#include "engine/world.h"
+
+#include <cstdio>
+#include <cstring>
+
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/collision_bodies.h"
+#else
+namespace pleat {
+class CollisionBodies {};
+}  // namespace pleat
+#endif
+
+namespace pleat {
+namespace {
+
+/// Where the next range of `count` elements goes when `used` are taken.
+std::uint32_t range_of(std::size_t count) { return static_cast<std::uint32_t>(padded(count)); }
+
+void resize_particles(World& world, std::size_t size) {
+  ParticleColumns& p = world.particles;
+  for (Vec3Column* column : {&p.position, &p.velocity, &p.force, &p.previous, &p.predicted}) column->resize(size);
+  p.inverse_mass.resize(size);
+  p.mass.resize(size);
+}
+
+void set_masses(World& world, const ClothRecord& cloth) {
+  const Garment& g = cloth.garment();
+  for (std::uint32_t i = 0; i < g.particle_count; ++i) {
+    const float mass = g.particle_area[i] * cloth.settings.density;
+    const std::uint32_t p = cloth.particle_begin + i;
+    world.particles.mass[p] = mass;
+    world.particles.inverse_mass[p] = g.pinned[i] || mass <= 0.0f ? 0.0f : 1.0f / mass;
+  }
+}
+
+#ifdef PLEAT_WITH_SMOOTHING
+/// The pattern of the cloth's level, made on first use.
+void want_pattern(World& world, GarmentRecord& source, std::uint32_t level) {
+  auto& pattern = source.patterns[level];
+  if (!pattern) pattern.emplace(build_tessellation(source.garment, level, &world.memory));
+}
+#else
+void want_pattern(World&, GarmentRecord&, std::uint32_t) {}
+#endif
+
+std::uint32_t drawn_range(const ClothRecord& cloth) {
+  const TessellationPattern* pattern = cloth.pattern();
+  return pattern != nullptr ? range_of(pattern->vertex_count) : 0;
+}
+
+void resize_drawn(World& world, std::size_t size) {
+  world.drawn.position.resize(size);
+  world.drawn.normal.resize(size);
+}
+
+/// Takes a cloth's drawn vertices out of the columns; the cloths behind it move down.
+void close_drawn_gap(World& world, const ClothRecord& cloth) {
+  const std::uint32_t count = drawn_range(cloth);
+  world.drawn.position.erase(cloth.drawn_begin, count);
+  world.drawn.normal.erase(cloth.drawn_begin, count);
+  for (ClothRecord& other : world.clothes) {
+    if (other.drawn_begin > cloth.drawn_begin) other.drawn_begin -= count;
+  }
+}
+
+#ifdef PLEAT_WITH_COLLISION
+/// Everything that adding a collider needs besides its own data.
+void want_bodies(World& world) {
+  world.collider_handles.reserve_one();
+  world.colliders.reserve(world.colliders.size() + 1);
+  if (world.bodies != nullptr) return;
+  std::pmr::polymorphic_allocator<> allocator(&world.memory);
+  world.bodies = {allocator.new_object<CollisionBodies>(&world.memory), MemoryDelete{&world.memory}};
+}
+
+void point_at_meshes(World& world) {
+  world.mesh_pointers.clear();
+  for (const MeshRecord& record : world.meshes) world.mesh_pointers.push_back(&record.mesh);
+}
+#endif
+
+void erase_if_present(Vec3Column& column, std::size_t begin, std::size_t count) {
+  if (column.size() != 0) column.erase(begin, count);
+}
+
+}  // namespace
+
+World::World(const pleat_world_def& definition)
+    : def(definition),
+      memory(definition.allocate, definition.free, definition.memory_user),
+      garment_handles(&memory),
+      cloth_handles(&memory),
+      collider_handles(&memory),
+      garments(&memory),
+      clothes(&memory),
+      colliders(&memory),
+      particles(&memory),
+      pin_previous(&memory),
+      pin_next(&memory),
+      runge_kutta(&memory),
+      surface(&memory),
+      drawn(&memory),
+      capsules(&memory),
+      meshes(&memory),
+      mesh_pointers(&memory),
+      capsule_poses(&memory),
+      contacts(&memory),
+      detection_scratch(&memory) {}
+
+World::~World() = default;
+
+void World::log(std::uint32_t level, const std::string& line) const {
+  if (def.log != nullptr) {
+    def.log(level, line.c_str(), def.log_user);
+  } else if (level != PLEAT_LOG_INFO) {
+    std::fprintf(stderr, "pleat: %s\n", line.c_str());
+  }
+}
+
+Handle add_garment(World& world, Garment&& garment) {
+  world.garment_handles.reserve_one();
+  std::pmr::polymorphic_allocator<> allocator(&world.memory);
+  world.garments.emplace_back(allocator.new_object<GarmentRecord>(std::move(garment)), MemoryDelete{&world.memory});
+  return world.garment_handles.add();
+}
+
+void remove_garment(World& world, std::uint32_t position) {
+  world.garments.erase(world.garments.begin() + position);
+  world.garment_handles.remove(position);
+}
+
+Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings& settings, const float* positions,
+                 std::size_t stride) {
+  const Garment& g = source.garment;
+  ClothRecord cloth;
+  cloth.source = &source;
+  cloth.settings = settings;
+  cloth.particle_begin = static_cast<std::uint32_t>(world.particles.mass.size());
+  cloth.pin_begin = static_cast<std::uint32_t>(world.pin_next.size());
+  cloth.drawn_begin = static_cast<std::uint32_t>(world.drawn.position.size());
+  for (const ClothRecord& other : world.clothes) cloth.edge_begin += range_of(other.garment().edge_count);
+
+  // Everything that can fail comes first; resizing a column keeps what is in it, so a failure leaves only spare room.
+  world.cloth_handles.reserve_one();
+  world.clothes.reserve(world.clothes.size() + 1);
+  want_pattern(world, source, settings.level);
+  const std::size_t particle_end = cloth.particle_begin + range_of(g.particle_count);
+  const std::size_t pin_end = cloth.pin_begin + range_of(g.pins.size());
+  try {
+    resize_particles(world, particle_end);
+    world.pin_previous.resize(pin_end);
+    world.pin_next.resize(pin_end);
+    resize_drawn(world, cloth.drawn_begin + drawn_range(cloth));
+  } catch (...) {
+    resize_particles(world, cloth.particle_begin);
+    world.pin_previous.resize(cloth.pin_begin);
+    world.pin_next.resize(cloth.pin_begin);
+    resize_drawn(world, cloth.drawn_begin);
+    throw;
+  }
+
+  const Vec3View position = world.particles.position.view().from(cloth.particle_begin);
+  for (std::uint32_t i = 0; i < g.particle_count; ++i) {
+    Vec3 x = g.rest_position.view()[i];
+    if (positions != nullptr) std::memcpy(&x, reinterpret_cast<const char*>(positions) + i * stride, sizeof x);
+    position.set(i, x);
+  }
+  for (std::uint32_t k = 0; k < g.pins.size(); ++k) {
+    world.pin_previous.view().set(cloth.pin_begin + k, position[g.pins[k]]);
+    world.pin_next.view().set(cloth.pin_begin + k, position[g.pins[k]]);
+  }
+  set_masses(world, cloth);
+  ++source.users;
+  world.clothes.push_back(cloth);
+  return world.cloth_handles.add();
+}
+
+void remove_cloth(World& world, std::uint32_t position) {
+  const ClothRecord cloth = world.clothes[position];
+  const Garment& g = cloth.garment();
+  const std::uint32_t particles = range_of(g.particle_count), pins = range_of(g.pins.size()),
+                      edges = range_of(g.edge_count);
+  ParticleColumns& p = world.particles;
+  for (Vec3Column* column : {&p.position, &p.velocity, &p.force, &p.previous, &p.predicted}) {
+    column->erase(cloth.particle_begin, particles);
+  }
+  p.inverse_mass.erase(cloth.particle_begin, particles);
+  p.mass.erase(cloth.particle_begin, particles);
+  for (Vec3Column* column : {&world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
+                             &world.runge_kutta.velocity_slope, &world.surface.normal}) {
+    erase_if_present(*column, cloth.particle_begin, particles);
+  }
+  world.pin_previous.erase(cloth.pin_begin, pins);
+  world.pin_next.erase(cloth.pin_begin, pins);
+  erase_if_present(world.surface.fold, cloth.edge_begin, edges);
+  if (world.surface.fold_height.size() != 0) world.surface.fold_height.erase(cloth.edge_begin, edges);
+  close_drawn_gap(world, cloth);
+
+  world.clothes.erase(world.clothes.begin() + position);
+  for (std::size_t i = position; i < world.clothes.size(); ++i) {
+    ClothRecord& later = world.clothes[i];
+    later.particle_begin -= particles;
+    later.pin_begin -= pins;
+    later.edge_begin -= edges;
+  }
+  --cloth.source->users;
+  world.cloth_handles.remove(position);
+}
+
+void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& settings) {
+  want_pattern(world, *cloth.source, settings.level);
+  if (settings.level != cloth.settings.level) {
+    ClothRecord moved = cloth;
+    moved.settings.level = settings.level;
+    const std::size_t old_end = world.drawn.position.size();
+    resize_drawn(world, old_end + drawn_range(moved));
+    const std::uint32_t old_count = drawn_range(cloth);
+    close_drawn_gap(world, cloth);
+    cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
+  }
+  cloth.settings = settings;
+  set_masses(world, cloth);
+}
+
+std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
+  const Garment& g = cloth.garment();
+  const std::uint64_t particle = 5 * sizeof(Vec3) + 2 * sizeof(float) +
+                                 (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
+                                 (world.surface.normal.size() != 0 ? sizeof(Vec3) : 0);
+  const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0;
+  return sizeof(ClothRecord) + range_of(g.particle_count) * particle + range_of(g.pins.size()) * 2 * sizeof(Vec3) +
+         range_of(g.edge_count) * edge + drawn_range(cloth) * 2 * sizeof(Vec3);
+}
+
+#ifdef PLEAT_WITH_COLLISION
+Handle add_capsule(World& world, const Vec3& a, const Vec3& b, float radius, float friction) {
+  want_bodies(world);
+  CapsuleColumns& c = world.capsules;
+  const std::size_t i = c.size();
+  for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) column->resize(i + 1);
+  c.friction.resize(i + 1);
+  c.enabled.resize(i + 1);
+  c.radius.resize(i + 1);  // last: it is what size() goes by
+  c.previous_a.view().set(i, a), c.next_a.view().set(i, a);
+  c.previous_b.view().set(i, b), c.next_b.view().set(i, b);
+  c.radius[i] = radius;
+  c.friction[i] = friction;
+  c.enabled[i] = 1;
+  world.colliders.push_back({PLEAT_COLLIDER_CAPSULE, static_cast<std::uint32_t>(i)});
+  return world.collider_handles.add();
+}
+
+Handle add_mesh(World& world, MeshCollider&& mesh) {
+  want_bodies(world);
+  world.mesh_pointers.reserve(world.meshes.size() + 1);
+  world.meshes.emplace_back(std::move(mesh));
+  try {
+    world.bodies->add_mesh(world.meshes.back().mesh);
+  } catch (...) {
+    world.meshes.pop_back();
+    throw;
+  }
+  point_at_meshes(world);
+  world.colliders.push_back({PLEAT_COLLIDER_MESH, static_cast<std::uint32_t>(world.meshes.size() - 1)});
+  return world.collider_handles.add();
+}
+
+void remove_collider(World& world, std::uint32_t position) {
+  const ColliderRecord gone = world.colliders[position];
+  if (gone.shape == PLEAT_COLLIDER_CAPSULE) {
+    CapsuleColumns& c = world.capsules;
+    for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) column->erase(gone.position, 1);
+    c.radius.erase(gone.position, 1);
+    c.friction.erase(gone.position, 1);
+    c.enabled.erase(gone.position, 1);
+  } else {
+    world.bodies->remove_mesh(gone.position);
+    world.meshes.erase(world.meshes.begin() + gone.position);
+    point_at_meshes(world);
+  }
+  world.colliders.erase(world.colliders.begin() + position);
+  for (ColliderRecord& other : world.colliders) {
+    if (other.shape == gone.shape && other.position > gone.position) --other.position;
+  }
+  world.collider_handles.remove(position);
+  if (world.colliders.empty()) world.bodies.reset();
+}
+#endif
+
+}  // namespace pleat

@@ -1,0 +1,136 @@
+// Everything a world holds: garments, cloths and colliders by handle, their state in flat columns, host services.
+//
+// A cloth is a record of ranges into the columns. Ranges start at multiples of the column padding and lie in the order
+// in which the cloths were made; destroying one closes its gap.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "components/colliders.h"
+#include "components/contacts.h"
+#include "components/garment.h"
+#include "components/particles.h"
+#include "components/stats.h"
+#include "components/surface.h"
+#include "components/tessellation_pattern.h"
+#include "engine/memory.h"
+#include "engine/pleat.h"
+#include "engine/registry.h"
+
+namespace pleat {
+
+class CollisionBodies;
+
+inline constexpr std::uint32_t kLevelCount = PLEAT_LEVEL_MAX + 1;
+
+/// A garment and the tessellation patterns that its cloths have asked for.
+struct GarmentRecord {
+  Garment garment;
+  std::array<std::optional<TessellationPattern>, kLevelCount> patterns;
+  std::uint32_t users = 0;  // cloths cut from it
+
+  explicit GarmentRecord(Garment&& g) : garment(std::move(g)) {}
+};
+
+/// Which rows of the schedule a cloth runs: bit i is row i.
+using Plan = std::uint64_t;
+
+struct ClothRecord {
+  GarmentRecord* source = nullptr;
+  pleat_cloth_settings settings{};
+  std::uint32_t particle_begin = 0, pin_begin = 0, edge_begin = 0, drawn_begin = 0;
+  std::uint32_t substeps_taken = 0;
+  Plan plan = 0;
+
+  const Garment& garment() const { return source->garment; }
+  /// Null where smoothing is compiled out.
+  const TessellationPattern* pattern() const {
+    const auto& pattern = source->patterns[settings.level];
+    return pattern ? &*pattern : nullptr;
+  }
+};
+
+/// A mesh body, and for how many ticks its swept boxes still have to be brought up to date: two after a move, the tick
+/// in which it moves and the one in which it stands again.
+struct MeshRecord {
+  MeshCollider mesh;
+  int stale_ticks = 0;
+
+  explicit MeshRecord(MeshCollider&& m) : mesh(std::move(m)) {}
+};
+
+struct ColliderRecord {
+  std::uint32_t shape = 0;     // PLEAT_COLLIDER_*
+  std::uint32_t position = 0;  // in the capsule columns or the list of meshes
+};
+
+/// Gives an object back to the resource it came from.
+struct MemoryDelete {
+  std::pmr::memory_resource* memory = nullptr;
+  template <class T>
+  void operator()(T* object) const {
+    std::pmr::polymorphic_allocator<>(memory).delete_object(object);
+  }
+};
+
+struct World {
+  explicit World(const pleat_world_def& definition);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  pleat_world_def def;
+  HostMemory memory;  // before all that lives on it
+
+  Registry garment_handles, cloth_handles, collider_handles;
+  std::pmr::vector<std::unique_ptr<GarmentRecord, MemoryDelete>> garments;
+  std::pmr::vector<ClothRecord> clothes;
+  std::pmr::vector<ColliderRecord> colliders;
+
+  ParticleColumns particles;
+  Vec3Column pin_previous, pin_next;  // m, where pins were at the last tick's end and shall be at the next one's
+  RungeKuttaColumns runge_kutta;      // empty unless a cloth integrates by it
+  SurfaceColumns surface;             // empty unless a cloth is drawn curved
+  DrawnColumns drawn;                 // empty where smoothing is compiled out
+
+  CapsuleColumns capsules;
+  std::pmr::deque<MeshRecord> meshes;
+  std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
+  std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
+
+  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty while there is no collider.
+  Column<CapsulePose> capsule_poses;
+  Column<ContactRow> contacts;
+  Column<float> detection_scratch;
+  std::uint32_t capsule_pose_count = 0, contact_count = 0;
+
+  Stats stats;
+  std::uint64_t ticks = 0, substeps = 0;
+
+  /// A line to the host's log, or to stderr for warnings and errors where it has none.
+  void log(std::uint32_t level, const std::string& line) const;
+  bool has_colliders() const { return !colliders.empty(); }
+};
+
+/// Takes the garment in. Throws std::bad_alloc; the world is unchanged then.
+Handle add_garment(World& world, Garment&& garment);
+void remove_garment(World& world, std::uint32_t position);
+
+/// A cloth at `positions` (garment order, m; null: the rest shape), at rest. Throws std::bad_alloc; unchanged then.
+Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings& settings, const float* positions,
+                 std::size_t stride);
+void remove_cloth(World& world, std::uint32_t position);
+/// Throws std::bad_alloc; unchanged then.
+void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& settings);
+/// Bytes of state that this cloth alone takes.
+std::uint64_t bytes_of(const World& world, const ClothRecord& cloth);
+
+Handle add_capsule(World& world, const Vec3& a, const Vec3& b, float radius, float friction);
+Handle add_mesh(World& world, MeshCollider&& mesh);
+void remove_collider(World& world, std::uint32_t position);
+
+}  // namespace pleat

@@ -1,0 +1,110 @@
+#include "engine/border.h"
+#include "engine/calls.h"
+#include "engine/schedule.h"
+
+namespace pleat::call {
+namespace {
+
+const pleat_world_def& default_world() {
+  static const pleat_world_def def = [] {
+    pleat_world_def d{};
+    d.size = sizeof d;
+    d.gravity[1] = -9.81f;
+    d.air_density = 1.225f;
+    d.max_substep = 1.0f / 480.0f;
+    return d;
+  }();
+  return def;
+}
+
+void need_small(const char* name, const float v[3], double most) {
+  need_finite(name, v);
+  for (int k = 0; k < 3; ++k) need_range(name, v[k], -most, most);
+}
+
+constexpr double kMostGravity = 1e4, kMostWind = 1e4;  // m/s2, m/s
+
+}  // namespace
+
+pleat_result world_def_init(pleat_world_def* def, size_t size) {
+  return init_def("world_def_init", def, size, default_world());
+}
+
+pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
+  return guarded(nullptr, "world_create", [&] {
+    need_pointer("world", world);
+    const pleat_world_def def = read_def("def", given, default_world());
+    need_small("gravity", def.gravity, kMostGravity);
+    need_small("wind", def.wind, kMostWind);
+    need_range("air_density", def.air_density, 0.0, 1e4);
+    need_range("max_substep", def.max_substep, 1e-5, 1.0);
+    if ((def.allocate == nullptr) != (def.free == nullptr)) refuse("allocate and free must both be given, or neither");
+    HostMemory memory(def.allocate, def.free, def.memory_user);
+    void* place = static_cast<std::pmr::memory_resource&>(memory).allocate(sizeof(World), alignof(World));
+    *world = reinterpret_cast<pleat_world*>(new (place) World(def));
+  });
+}
+
+void world_destroy(pleat_world* handle) {
+  if (handle == nullptr) return;
+  World* world = reinterpret_cast<World*>(handle);
+  HostMemory memory(world->def.allocate, world->def.free, world->def.memory_user);
+  world->~World();
+  static_cast<std::pmr::memory_resource&>(memory).deallocate(world, sizeof(World), alignof(World));
+}
+
+pleat_result world_step(pleat_world* handle, float dt) {
+  return guarded(as_world(handle), "world_step", [&] {
+    World& world = need_world(handle);
+    need_range("dt", dt, 1e-6, 1.0);
+    tick(world, dt);
+  });
+}
+
+pleat_result world_set_gravity(pleat_world* handle, const float gravity[3]) {
+  return guarded(as_world(handle), "world_set_gravity", [&] {
+    World& world = need_world(handle);
+    need_small("gravity", gravity, kMostGravity);
+    std::copy_n(gravity, 3, world.def.gravity);
+    replan(world);
+  });
+}
+
+pleat_result world_set_wind(pleat_world* handle, const float wind[3]) {
+  return guarded(as_world(handle), "world_set_wind", [&] {
+    World& world = need_world(handle);
+    need_small("wind", wind, kMostWind);
+    std::copy_n(wind, 3, world.def.wind);
+  });
+}
+
+pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
+  return guarded(as_world(handle), "world_stats", [&] {
+    const World& world = need_world(handle);
+    need_pointer("stats", stats);
+    need_range("stats.size", stats->size, sizeof stats->size, sizeof(pleat_stats));
+    pleat_stats all{};
+    all.size = stats->size;
+    all.ticks = world.ticks;
+    all.substeps = world.substeps;
+    all.particle_contacts = world.stats.particle_contacts;
+    all.face_contacts = world.stats.face_contacts;
+    all.contacts_dropped = world.stats.contacts_dropped;
+    all.edges_skipped = world.stats.edges_skipped;
+    all.nonfinite_restored = world.stats.nonfinite_restored;
+    all.allocations = world.memory.allocations();
+    all.bytes = world.memory.bytes();
+    all.peak_bytes = world.memory.peak_bytes();
+    std::memcpy(stats, &all, stats->size);
+  });
+}
+
+pleat_result world_explain(pleat_world* handle, pleat_text_fn write, void* user) {
+  return guarded(as_world(handle), "world_explain", [&] {
+    const World& world = need_world(handle);
+    if (write == nullptr) refuse("write is null");
+    explain(world, write, user);
+  });
+}
+
+}  // namespace pleat::call

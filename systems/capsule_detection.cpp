@@ -1,0 +1,140 @@
+#include "systems/capsule_detection.h"
+
+#include "systems/contact_row.h"
+
+namespace pleat {
+namespace {
+
+/// An edge's ends are tested as particles; this much of it at each end is theirs.
+constexpr float kEndShare = 0.02f;
+
+Vec3 any_perpendicular(const Vec3& a) {
+  return normalized_or(std::abs(a.x) < std::abs(a.y) ? Vec3{0.0f, a.z, -a.y} : Vec3{-a.z, 0.0f, a.x}, {0, 1, 0});
+}
+
+/// One capsule against one cloth.
+struct CapsuleTest {
+  const CapsuleDetection& in;
+  const CapsulePose& capsule;
+  ContactRowMaker rows;
+  float distance = capsule.radius + in.thickness;  // that is kept from the core
+  float reach = distance + kContactMargin;
+  float* distance2 = in.scratch;                                   // (P) squared, from the core
+  const float* length2 = in.scratch + in.garment->particle_count;  // (E) squared
+
+  void run(Stats& stats) const {
+    measure_particles();
+    test_particles(stats);
+    test_edges(stats);
+    test_faces(stats);
+  }
+
+ private:
+  Vec3 core(float t) const { return lerp(capsule.a, capsule.b, t); }
+  Vec3 core_step(float t) const { return lerp(capsule.step_a, capsule.step_b, t); }
+  Vec3 core_before(float t) const { return core(t) - core_step(t); }
+
+  void measure_particles() const {
+    const Vec3 a = capsule.a, axis = capsule.b - capsule.a;
+    const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
+    for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
+      const Vec3 p = in.position[i] - a;
+      const Vec3 d = p - axis * std::min(std::max(dot(p, axis) * inverse, 0.0f), 1.0f);
+      distance2[i] = dot(d, d);
+    }
+  }
+
+  /// A row that keeps a point of the cloth, now `away` from core(t) and `away_before` from it when the substep began,
+  /// on the side where it was.
+  void add_round(const std::uint32_t (&particle)[3], const float (&weight)[3], float t, const Vec3& away,
+                 const Vec3& away_before, bool at_particle, Stats& stats) const {
+    const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
+    const Vec3 fallback = normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
+    const Vec3 normal = dot(away, away) > 1e-12f ? normalized_or(away * side, fallback) : fallback;
+    rows.add(particle, weight, normal, core(t), distance, core_step(t), capsule.friction, at_particle, stats);
+  }
+
+  void test_particles(Stats& stats) const {
+    for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
+      if (!(distance2[i] < reach * reach) || in.inverse_mass[i] == 0.0f) continue;
+      const Vec3 p = in.position[i];
+      const float t = closest_on_segment(p, capsule.a, capsule.b);
+      add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, p - core(t), in.previous[i] - core_before(t), true, stats);
+    }
+  }
+
+  /// No point of an edge of squared length l2, whose ends are at squared distances a2 and b2 from a convex core, is
+  /// nearer to it than to a point at the same distances from both ends: the height of that triangle.
+  static bool edge_is_beyond(float a2, float b2, float l2, float reach2) {
+    if (std::min(a2, b2) < reach2) return false;
+    const float x = a2 - b2 + l2;
+    return x <= 0.0f || x >= 2.0f * l2 || 4.0f * l2 * (a2 - reach2) > x * x;
+  }
+
+  void test_edges(Stats& stats) const {
+    const std::uint32_t* first = in.garment->edge_particle[0].data();
+    const std::uint32_t* second = in.garment->edge_particle[1].data();
+    for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
+      const std::uint32_t i = first[e], j = second[e];
+      if (edge_is_beyond(distance2[i], distance2[j], length2[e], reach * reach)) continue;
+      const Vec3 xi = in.position[i], xj = in.position[j];
+      const SegmentPair at = closest_between_segments(xi, xj, capsule.a, capsule.b);
+      if (at.s < kEndShare || at.s > 1.0f - kEndShare) continue;
+      const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
+      if (!(dot(away, away) < reach * reach)) continue;
+      const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
+      add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats);
+    }
+  }
+
+  void test_faces(Stats& stats) const {
+    const auto& corner = in.garment->face_particle;
+    const auto& edge = in.garment->face_edge;
+    const bool is_sphere = capsule.a == capsule.b;
+    for (std::uint32_t f = 0; f < in.garment->face_count; ++f) {
+      const std::uint32_t i = corner[0][f], j = corner[1][f], k = corner[2][f];
+      // A point of the face is within a third of the longest squared edge of a corner (method.md F, theorem 1).
+      const float nearest2 = std::min({distance2[i], distance2[j], distance2[k]});
+      const float longest2 = std::max({length2[edge[0][f]], length2[edge[1][f]], length2[edge[2][f]]});
+      if (nearest2 > reach * reach + longest2 * (1.0f / 3.0f)) continue;
+      const Vec3 xi = in.position[i], u = in.position[j] - xi, v = in.position[k] - xi;
+      const Vec3 area = cross(u, v);
+      const float area2 = dot(area, area);
+      if (!(area2 > 1e-16f)) continue;
+      for (const float t : {0.0f, 1.0f}) {
+        if (is_sphere && t > 0.0f) break;
+        const Vec3 w = core(t) - xi;
+        const float height = dot(w, area);
+        if (height * height > reach * reach * area2) continue;
+        const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
+        if (!(bj > 0.0f && bk > 0.0f && bj + bk < 1.0f)) continue;
+        const float bi = 1.0f - bj - bk;
+        const Vec3 before = in.previous[i] * bi + in.previous[j] * bj + in.previous[k] * bk - core_before(t);
+        const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
+        rows.add({i, j, k}, {bi, bj, bk}, area * (side / std::sqrt(area2)), core(t), distance, core_step(t),
+                 capsule.friction, false, stats);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+bool CapsuleDetection::validate() const {
+  return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
+         (capsules != nullptr || capsule_count == 0) && scratch != nullptr && contacts.count != nullptr &&
+         thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
+}
+
+void CapsuleDetection::run(Stats& stats) const {
+  if (capsule_count == 0) return;
+  float* length2 = scratch + garment->particle_count;
+  for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
+    const Vec3 d = position[garment->edge_particle[1][e]] - position[garment->edge_particle[0][e]];
+    length2[e] = dot(d, d);
+  }
+  const ContactRowMaker rows{position, inverse_mass, friction, dt, contacts};
+  for (std::uint32_t c = 0; c < capsule_count; ++c) CapsuleTest{*this, capsules[c], rows}.run(stats);
+}
+
+}  // namespace pleat

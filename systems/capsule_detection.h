@@ -1,0 +1,38 @@
+// Where a cloth touches capsules.
+//   M. Oshita, A. Makinouchi, 2001, section 4.4: a coarse face may cut a body although its corners are outside, so
+//   edges and faces are tested as well as particles. A capsule is a segment with a radius; the places where a triangle
+//   and a segment come closest are a corner, an edge, or an end of the segment over the face, and each makes a row.
+#pragma once
+
+#include "components/colliders.h"
+#include "components/contacts.h"
+#include "components/garment.h"
+#include "components/stats.h"
+
+namespace pleat {
+
+/// Adds a row for each feature of the cloth nearer than radius + thickness + kContactMargin to a capsule's core, at the
+/// end of the substep. The normal points to the side on which the feature was when the substep began, so that what has
+/// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
+/// than radius + thickness.
+/// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules
+/// Writes: scratch (P + E); contacts, added to; stats.contacts_dropped
+/// Cost:   O((P + E + F) capsules), no allocation. Errors: none; features without extent make finite rows or none.
+struct CapsuleDetection {
+  const Garment* garment = nullptr;
+  ConstVec3View position;  // predicted
+  ConstVec3View previous;  // when the substep began
+  const float* inverse_mass = nullptr;
+  const CapsulePose* capsules = nullptr;
+  std::uint32_t capsule_count = 0;
+  float thickness = 0.0f;  // m
+  float friction = 0.0f;
+  float dt = 0.0f;           // s, of the substep
+  float* scratch = nullptr;  // particle_count + edge_count floats
+  ContactList contacts;
+
+  bool validate() const;
+  void run(Stats& stats) const;
+};
+
+}  // namespace pleat

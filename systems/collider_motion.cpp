@@ -1,0 +1,39 @@
+#include "systems/collider_motion.h"
+
+#include "systems/closest_points.h"
+
+namespace pleat {
+
+bool ColliderMotion::validate() const {
+  return capsules != nullptr && bodies != nullptr && position.x != nullptr && poses != nullptr &&
+         pose_count != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
+}
+
+void ColliderMotion::run(Stats& stats) const {
+  std::uint32_t count = 0;
+  bodies->for_each_capsule(box_of(position, particle_count).grown(reach), [&](std::uint32_t i) {
+    if (count == capacity) {
+      ++stats.contacts_dropped;
+    } else {
+      poses[count++].index = i;
+    }
+  });
+  // The tree's order depends on its history; a cloth's motion must not.
+  std::sort(poses, poses + count, [](const CapsulePose& p, const CapsulePose& q) { return p.index < q.index; });
+
+  const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
+  const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t i = poses[k].index;
+    poses[k] = {.a = lerp(a0[i], a1[i], t1),
+                .b = lerp(b0[i], b1[i], t1),
+                .step_a = (a1[i] - a0[i]) * (t1 - t0),
+                .step_b = (b1[i] - b0[i]) * (t1 - t0),
+                .radius = capsules->radius[i],
+                .friction = capsules->friction[i],
+                .index = i};
+  }
+  *pose_count = count;
+}
+
+}  // namespace pleat

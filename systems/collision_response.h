@@ -1,0 +1,30 @@
+// Moves the cloth out of bodies.
+#pragma once
+
+#include "components/colliders.h"
+#include "components/contacts.h"
+#include "components/stats.h"
+
+namespace pleat {
+
+/// How a face that cuts a body without a corner inside is moved; the values are those of PLEAT_FACE_RESPONSE_*.
+enum class FaceResponse : std::uint32_t { kWeighted = 0, kWhole = 1 };
+
+/// One pass over the rows, in order: where C = d - n . sum of b x > 0 the row pushes.
+///   weighted: x_i += w_i b_i / (sum of w b^2) C n, so that the touching point comes to lie exactly on the plane;
+///   whole:    x_i += C n for all corners alike (M. Oshita, A. Makinouchi, 2001, figure 6d); pinned ones stay.
+/// Normals, weights and planes are fixed, so passes may be repeated and mixed with the strain limit's.
+/// Reads:  inverse_mass (P) 1/kg
+/// Writes: position (P) m; push of the rows; stats.particle_contacts, face_contacts: rows that push for the first time
+/// Cost:   O(rows), no allocation. Errors: none.
+struct CollisionResponse {
+  ContactList contacts;
+  const float* inverse_mass = nullptr;
+  FaceResponse face_response = FaceResponse::kWeighted;
+  Vec3View position;
+
+  bool validate() const;
+  void run(Stats& stats) const;
+};
+
+}  // namespace pleat

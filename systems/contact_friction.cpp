@@ -1,0 +1,38 @@
+#include "systems/contact_friction.h"
+
+#include <algorithm>
+
+namespace pleat {
+
+bool ContactFriction::validate() const {
+  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && previous.x != nullptr &&
+         inverse_mass != nullptr && position.x != nullptr;
+}
+
+void ContactFriction::run() const {
+  for (std::uint32_t c = 0; c < *contacts.count; ++c) {
+    const ContactRow& row = contacts.rows[c];
+    if (row.push == 0.0f || row.friction == 0.0f) continue;
+    const Vec3 moved = contact_point(row, position) - contact_point(row, previous) - row.body_step;
+    const Vec3 slid = moved - row.normal * dot(row.normal, moved);
+    const float distance = length(slid);
+    if (distance < 1e-12f) continue;
+    shift_contact(row, slid * -std::min(1.0f, row.friction * row.push / distance), inverse_mass, position);
+  }
+}
+
+bool ContactVelocity::validate() const {
+  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && inverse_mass != nullptr &&
+         dt > 0.0f && velocity.x != nullptr;
+}
+
+void ContactVelocity::run() const {
+  for (std::uint32_t c = 0; c < *contacts.count; ++c) {
+    const ContactRow& row = contacts.rows[c];
+    if (row.push == 0.0f) continue;
+    const float leaving = dot(row.normal, contact_point(row, velocity) - row.body_step * (1.0f / dt));
+    if (leaving > 0.0f) shift_contact(row, row.normal * -leaving, inverse_mass, velocity);
+  }
+}
+
+}  // namespace pleat

@@ -1,0 +1,153 @@
+#include "systems/edge_length.h"
+
+#include <algorithm>
+
+#include "components/pn_edge.h"
+#include "components/vec3_block.h"
+
+namespace pleat {
+namespace {
+
+constexpr float kOnset = 0.01f;     // deficit, over the length, at which half of it is closed
+constexpr float kSureSide = 0.08f;  // dL/dh at h = 0 from which on the side of the fold is certain: 2 % of bulge
+constexpr float kTiny = 1e-20f;
+
+constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums
+constexpr float kPaperStart = 1.4f;       // k of eq (6)
+constexpr int kMaxBisections = 32;
+
+struct Fold {
+  Vec3 direction;
+  float height;
+};
+
+// Free of branches: the compiler runs it on several edges at once.
+inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
+  const std::array<float, 10> speed2 = squared_speeds(c);
+  const float length0 = curve_length(speed2);
+
+  const Vec3 tangent = c.middle_tangent();
+  const Vec3 across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
+  const float width2 = dot(across, across);
+  const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
+
+  // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
+  const float dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
+  std::array<float, 10> rise;
+  float slope = 0.0f;  // dL/dh at h = 0
+  for (std::size_t i = 0; i < 10; ++i) {
+    const PnEdgeNode& q = kPnEdgeNodes[i];
+    rise[i] = q.fold_rate * (dn + q.u_rate * un + q.v_rate * vn);
+    slope += q.weight * rise[i] / std::sqrt(speed2[i]);
+  }
+  const float side = slope < 0.0f ? -1.0f : 1.0f;
+  slope *= side;
+
+  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
+  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
+  const float wanted = length0 + closed;
+  const float ratio = length0 / wanted;
+  const float gap = closed * (length0 + wanted), beta = length0 * slope;
+  const float gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
+  float h = gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny);
+
+  float length_h = 0.0f, slope_h = 0.0f;
+  for (std::size_t i = 0; i < 10; ++i) {
+    const PnEdgeNode& q = kPnEdgeNodes[i];
+    const float bend = h * q.fold_rate * q.fold_rate;
+    const float s = speed2[i] + h * (2.0f * side * rise[i] + bend);
+    const float speed = std::sqrt(s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed);
+    length_h += q.weight * speed;
+    slope_h += q.weight * (side * rise[i] + bend) / speed;
+  }
+  h += (wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
+  h = h > 0.0f ? h : 0.0f;
+
+  const float sure = slope < kSureSide ? slope * (1.0f / kSureSide) : 1.0f;
+  const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
+  const float height = side * sure * (1.5f - 0.5f * sure * sure) * defined * h;
+  return {n, deficit > 0.0f ? height : 0.0f};
+}
+
+void run_pleat(const EdgeLength& s) {
+  const Garment& g = *s.garment;
+  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
+    Vec3Block a, b, na, nb, direction;
+    float target[kLanes], height[kLanes];
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t e = begin + std::min(lane, count - 1);
+      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
+      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
+      target[lane] = g.edge_rest_curve_length[e];
+    }
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const PnEdge curve(a[lane], b[lane], na[lane], nb[lane]);
+      const Fold fold = pleat_fold(curve, na[lane] + nb[lane], target[lane]);
+      direction.set(lane, fold.direction);
+      height[lane] = fold.height;
+    }
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      s.fold.set(begin + lane, direction[lane]);
+      s.fold_height[begin + lane] = height[lane];
+    }
+  }
+}
+
+/// The quadratic normal of a PN triangle in the middle of the edge (Vlachos et al. 2001).
+Vec3 quadratic_normal(const Vec3& d, const Vec3& na, const Vec3& nb) {
+  const Vec3 sum = na + nb;
+  const Vec3 reflected = sum - d * (2.0f * dot(d, sum) / std::max(dot(d, d), kTiny));
+  return normalized_or(sum + normalized_or(reflected, {}), na);
+}
+
+/// Length by sums of 8 and of 4 chords, extrapolated to infinitely many.
+float chord_length(const PnEdge& c) {
+  Vec3 point[9];
+  for (int i = 0; i <= 8; ++i) point[i] = c.point(0.125f * static_cast<float>(i));
+  float fine = 0.0f, coarse = 0.0f;
+  for (int i = 0; i < 8; ++i) fine += length(point[i + 1] - point[i]);
+  for (int i = 0; i < 8; i += 2) coarse += length(point[i + 2] - point[i]);
+  return (4.0f * fine - coarse) / 3.0f;
+}
+
+Fold paper_fold(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb, float target) {
+  const Vec3 n = quadratic_normal(b - a, na, nb), middle = PnEdge(a, b, na, nb).middle();
+  const auto missing = [&](float h) {
+    const Vec3 p = middle + n * h;
+    return target - chord_length(PnEdge(a, p, na, n)) - chord_length(PnEdge(p, b, n, nb));
+  };
+  const float tolerance = 0.5f * kPaperTolerance * target;
+  if (missing(0.0f) <= tolerance) return {n, 0.0f};
+
+  float low = 0.0f, high = std::max(kPaperStart * (target - length(b - a)), tolerance);  // eq (6)
+  for (int i = 0; i < kMaxBisections && missing(high) > 0.0f; ++i) low = high, high *= 2.0f;
+  float h = high;
+  for (int i = 0; i < kMaxBisections && std::abs(missing(h)) > tolerance; ++i) {
+    h = 0.5f * (low + high);
+    (missing(h) > 0.0f ? low : high) = h;
+  }
+  return {n, h};
+}
+
+void run_paper(const EdgeLength& s) {
+  const Garment& g = *s.garment;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+    const Fold fold = paper_fold(s.position[i], s.position[j], s.normal[i], s.normal[j], g.edge_rest_length[e]);
+    s.fold.set(e, fold.direction);
+    s.fold_height[e] = fold.height;
+  }
+}
+
+}  // namespace
+
+bool EdgeLength::validate() const {
+  return (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) && garment != nullptr && position.x != nullptr &&
+         normal.x != nullptr && fold.x != nullptr && fold_height != nullptr;
+}
+
+void EdgeLength::run() const { mode == SurfaceMode::kPaper ? run_paper(*this) : run_pleat(*this); }
+
+}  // namespace pleat

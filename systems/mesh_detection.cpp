@@ -1,0 +1,200 @@
+#include "systems/mesh_detection.h"
+
+#include <array>
+
+#include "systems/contact_row.h"
+#include "systems/mesh_pose.h"
+
+namespace pleat {
+namespace {
+
+constexpr float kMeshDepth = 0.03f;      // m below the surface from which a particle is still brought back
+constexpr float kFlatSlope = 0.02f;      // a body vertex counts as standing out while none around is steeper than this
+constexpr float kTouching = 1e-4f;       // m; nearer than this the body's own normal is better than the difference
+constexpr std::size_t kRowsPerFace = 4;  // the deepest body vertices over a face
+
+/// What is nearest to one corner of the face at hand.
+struct Nearest {
+  float distance2 = 0.0f;  // m2; at first the square of how far to look
+  std::uint32_t triangle = kNoTriangle;
+  Barycentrics at{};
+};
+
+/// A body vertex over the face at hand.
+struct Standing {
+  float height;  // of the face over the vertex, negative when the vertex has come through, m
+  std::uint32_t vertex;
+  float weight[3];
+  Vec3 normal;
+};
+
+/// One mesh against one cloth, face by face.
+struct MeshTest {
+  const MeshDetection& in;
+  MeshPose pose;
+  ContactRowMaker rows;
+  Stats& stats;
+  float friction = pose.mesh.friction;
+  float reach = in.thickness + kContactMargin;
+  float search = std::max(reach, kMeshDepth);
+
+  void test_face(std::uint32_t face, std::size_t mesh) const {
+    Face f;
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t c = static_cast<std::size_t>(k);
+      f.particle[c] = in.garment->face_particle[c][face];
+      f.x[c] = in.position[f.particle[c]];
+      f.nearest[c].distance2 = search * search;
+      f.owns_particle[c] = in.garment->faces_around[in.garment->around_begin[f.particle[c]]] == face &&
+                           in.inverse_mass[f.particle[c]] > 0.0f;
+      f.owns_edge[c] = in.garment->edge_face[0][in.garment->face_edge[c][face]] == face;
+      box.include(f.x[c]);
+    }
+    box = box.grown(search);
+    if (!box.overlaps(in.bodies->swept_box(mesh))) return;
+    const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
+    f.area = cross(u, v);
+    f.area2 = dot(f.area, f.area);
+    f.normal = normalized_or(f.area, Vec3{});
+    in.bodies->for_each_triangle(mesh, box, [&](std::uint32_t t) { meet(f, t); });
+    for (std::size_t c = 0; c < 3; ++c) add_particle_row(f, c);
+    for (std::size_t k = 0; k < f.standing_count; ++k) add_face_row(f, f.standing[k]);
+  }
+
+ private:
+  struct Face {
+    std::uint32_t particle[3] = {};
+    Vec3 x[3];
+    bool owns_particle[3] = {}, owns_edge[3] = {};
+    Vec3 area, normal;
+    float area2 = 0.0f;
+    std::array<Nearest, 3> nearest;
+    std::array<Standing, kRowsPerFace> standing;
+    std::size_t standing_count = 0;
+  };
+
+  void meet(Face& f, std::uint32_t t) const {
+    const MeshPose::Corners body = pose.corners(t);
+    const float heights[] = {dot(body.a - f.x[0], f.normal), dot(body.b - f.x[0], f.normal),
+                             dot(body.c - f.x[0], f.normal)};
+    const float low = std::min({heights[0], heights[1], heights[2]}),
+                high = std::max({heights[0], heights[1], heights[2]});
+    if (low > search || high < -search) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (f.owns_particle[c]) find_nearest(f.x[c], t, body, f.nearest[c]);
+    }
+    if (low > reach || high < -reach) return;
+    for (int k = 0; k < 3; ++k) {
+      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k]);
+      if (!pose.topology.owns_edge(t, k)) continue;
+      for (int c = 0; c < 3; ++c) {
+        if (f.owns_edge[c]) test_edges(f, c, t, body, k);
+      }
+    }
+  }
+
+  static void find_nearest(const Vec3& p, std::uint32_t t, const MeshPose::Corners& body, Nearest& nearest) {
+    const Barycentrics at = closest_on_triangle(p, body.a, body.b, body.c);
+    const Vec3 d = p - at.point(body.a, body.b, body.c);
+    if (dot(d, d) < nearest.distance2) nearest = {dot(d, d), t, at};
+  }
+
+  void add_particle_row(const Face& f, std::size_t c) const {
+    const auto& [distance2, t, at] = f.nearest[c];
+    if (t == kNoTriangle) return;
+    const MeshPose::Corners body = pose.corners(t);
+    const Vec3 surface = at.point(body.a, body.b, body.c), away = f.x[c] - surface;
+    const int zeros = (at.a == 0.0f) + (at.b == 0.0f) + (at.c == 0.0f);
+    Vec3 outward;
+    bool border = false;
+    if (zeros == 2) {
+      outward = pose.vertex_normal(pose.corner(t, at.a > 0.0f ? 0 : at.b > 0.0f ? 1 : 2));
+    } else if (zeros == 1) {
+      const int k = at.c == 0.0f ? 0 : at.a == 0.0f ? 1 : 2;
+      border = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(k)] == kNoTriangle;
+      outward = pose.edge_normal(t, k);
+    } else {
+      outward = body.normal();
+    }
+    const bool inside = dot(away, outward) < 0.0f;
+    if (inside ? border || distance2 > kMeshDepth * kMeshDepth : distance2 > reach * reach) return;
+    const bool own_normal = zeros == 0 || distance2 < kTouching * kTouching;
+    const Vec3 normal = normalized_or(own_normal ? outward : inside ? -away : away, Vec3{});
+    if (normal == Vec3{}) return;
+    const Vec3 step =
+        at.point(pose.step(pose.corner(t, 0)), pose.step(pose.corner(t, 1)), pose.step(pose.corner(t, 2)));
+    const std::uint32_t i = f.particle[c];
+    rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, in.thickness, step, friction, true, stats);
+  }
+
+  /// A vertex q of the body over the inside of the face.
+  void test_vertex(Face& f, std::uint32_t vertex, const Vec3& q) const {
+    const Vec3 w = q - f.x[0];
+    const float height = -dot(w, f.normal);
+    if (!(f.area2 > 1e-16f) || std::abs(height) > reach) return;
+    const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
+    const float b1 = dot(cross(w, v), f.area) / f.area2, b2 = dot(cross(u, w), f.area) / f.area2;
+    if (!(b1 > 0.0f && b2 > 0.0f && b1 + b2 < 1.0f)) return;
+    const float side = dot(pose.vertex_normal(vertex), f.normal) < 0.0f ? -1.0f : 1.0f;
+    const Standing found{side * height, vertex, {1.0f - b1 - b2, b1, b2}, f.normal * side};
+    const bool full = f.standing_count == kRowsPerFace;
+    Standing* highest = std::max_element(f.standing.data(), f.standing.data() + f.standing_count,
+                                         [](const Standing& a, const Standing& b) { return a.height < b.height; });
+    if (full && highest->height <= found.height) return;
+    if (!pose.is_extreme(vertex, found.normal, kFlatSlope)) return;
+    (full ? *highest : f.standing[f.standing_count++]) = found;
+  }
+
+  void add_face_row(const Face& f, const Standing& s) const {
+    rows.add(f.particle, s.weight, s.normal, pose.vertex(s.vertex), in.thickness, pose.step(s.vertex), friction, false,
+             stats);
+  }
+
+  /// Edge c of the face against edge k of triangle t.
+  void test_edges(const Face& f, int c, std::uint32_t t, const MeshPose::Corners& body, int k) const {
+    const std::size_t i = static_cast<std::size_t>(c), j = (i + 1) % 3;
+    const Vec3 a = body[k], b = body[(k + 1) % 3];
+    const SegmentPair at = closest_between_segments(f.x[i], f.x[j], a, b);
+    if (!(at.s > 0.0f && at.s < 1.0f && at.t > 0.0f && at.t < 1.0f)) return;
+    const Vec3 surface = lerp(a, b, at.t), away = lerp(f.x[i], f.x[j], at.s) - surface;
+    if (!(dot(away, away) < reach * reach)) return;
+
+    const std::uint32_t across = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(k)];
+    if (across == kNoTriangle) return;  // over a border it cannot be told what is outside
+    const MeshPose::Corners other = pose.corners(across);
+    const Vec3 n1 = body.normal(), n2 = other.normal(), along = b - a;
+    // Of the ridge's two faces, the directions into them; a valley or a flat edge is never met first.
+    const Vec3 into1 = cross(n1, along), into2 = cross(along, n2);
+    if (dot(n1, into2) > -1e-3f * length(into2)) return;
+    const Vec3 crossing = normalized_or(cross(along, f.x[j] - f.x[i]), n1 + n2);
+    const bool touching = dot(away, away) < kTouching * kTouching;
+    Vec3 normal = touching ? crossing : normalized_or(away, crossing);
+    if (dot(normal, n1 + n2) < 0.0f) normal = -normal;
+    if (dot(normal, into1) > 1e-3f * length(into1) || dot(normal, into2) > 1e-3f * length(into2)) return;
+
+    const std::uint32_t va = pose.corner(t, k), vb = pose.corner(t, (k + 1) % 3);
+    rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - at.s, at.s, 0.0f}, normal, surface, in.thickness,
+             lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
+  }
+};
+
+}  // namespace
+
+bool MeshDetection::validate() const {
+  return garment != nullptr && position.x != nullptr && inverse_mass != nullptr && bodies != nullptr &&
+         (meshes != nullptr || bodies->mesh_count() == 0) && contacts.count != nullptr && thickness >= 0.0f &&
+         friction >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
+}
+
+void MeshDetection::run(Stats& stats) const {
+  const Box box = box_of(position, garment->particle_count).grown(std::max(thickness + kContactMargin, kMeshDepth));
+  const ContactRowMaker rows{position, inverse_mass, friction, dt, contacts};
+  for (std::size_t m = 0; m < bodies->mesh_count(); ++m) {
+    if (!meshes[m]->enabled || !box.overlaps(bodies->swept_box(m))) continue;
+    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, stats};
+    for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
+  }
+}
+
+}  // namespace pleat

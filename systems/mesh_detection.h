@@ -1,0 +1,37 @@
+// Where a cloth touches the triangles of a mesh body.
+#pragma once
+
+#include "components/colliders.h"
+#include "components/contacts.h"
+#include "components/garment.h"
+#include "components/stats.h"
+#include "systems/collision_bodies.h"
+
+namespace pleat {
+
+/// Adds rows against mesh bodies at the fraction t1 of the tick, the end of the substep:
+///   particles: against the nearest point of the body; the angle-weighted normal there tells inside from outside
+///              (J. Baerentzen, H. Aanaes, 2005). One inside is pushed out if it is no deeper than kMeshDepth;
+///   edges:     against ridges of the body, while the normal lies between those of the ridge's two triangles;
+///   faces:     against vertices of the body that stand out towards the face.
+/// Both latter tests leave out what another row says already, so that rows stay few on smooth bodies.
+/// Reads:  garment edges, faces; position (P) m; inverse_mass (P) 1/kg; meshes and their trees
+/// Writes: contacts, added to; stats.contacts_dropped
+/// Cost:   O(F log T + close pairs), no allocation. Errors: none; features without extent make finite rows or none.
+struct MeshDetection {
+  const Garment* garment = nullptr;
+  ConstVec3View position;  // predicted
+  const float* inverse_mass = nullptr;
+  const CollisionBodies* bodies = nullptr;
+  const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
+  float t0 = 0.0f, t1 = 1.0f;
+  float thickness = 0.0f;  // m
+  float friction = 0.0f;
+  float dt = 0.0f;  // s, of the substep
+  ContactList contacts;
+
+  bool validate() const;
+  void run(Stats& stats) const;
+};
+
+}  // namespace pleat

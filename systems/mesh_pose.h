@@ -1,0 +1,41 @@
+// The shape of a mesh body at one moment of a tick.
+#pragma once
+
+#include "systems/body_topology.h"
+#include "systems/closest_points.h"
+
+namespace pleat {
+
+struct MeshPose {
+  const MeshCollider& mesh;
+  const BodyTopology& topology;
+  float t0, t1;  // fractions of the tick; the pose is the one at t1
+  ConstVec3View previous = mesh.previous.view(), next = mesh.next.view();
+
+  std::uint32_t corner(std::uint32_t triangle, int k) const {
+    return mesh.triangles[3 * triangle + static_cast<std::uint32_t>(k)];
+  }
+  Vec3 vertex(std::uint32_t v) const { return lerp(previous[v], next[v], t1); }
+  /// Motion from t0 to t1.
+  Vec3 step(std::uint32_t v) const { return (next[v] - previous[v]) * (t1 - t0); }
+
+  struct Corners {
+    Vec3 a, b, c;
+    Vec3 operator[](int k) const { return k == 0 ? a : k == 1 ? b : c; }
+    /// Outward, unit; zero where the triangle has no area.
+    Vec3 normal() const { return normalized_or(cross(b - a, c - a), Vec3{}); }
+  };
+  Corners corners(std::uint32_t triangle) const {
+    return {vertex(corner(triangle, 0)), vertex(corner(triangle, 1)), vertex(corner(triangle, 2))};
+  }
+
+  /// Sum of the normals around a vertex, each by the angle of its triangle there: for a point whose nearest point of
+  /// the body is this vertex, the sign of the dot product tells inside from outside. Not of unit length.
+  Vec3 vertex_normal(std::uint32_t v) const;
+  /// The same for edge k of a triangle: the sum of its two triangles' normals.
+  Vec3 edge_normal(std::uint32_t triangle, int k) const;
+  /// No neighbour of v stands out further than v in the direction of `normal`, up to a slope of `tolerance`.
+  bool is_extreme(std::uint32_t v, const Vec3& normal, float tolerance) const;
+};
+
+}  // namespace pleat

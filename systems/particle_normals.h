@@ -1,0 +1,31 @@
+// Particle normals: the base normals of the mesh, and the paper's normal control by elastic forces.
+//   M. Oshita, A. Makinouchi, "Real-time Cloth Simulation with Sparse Particles and Curved Faces", 2001, section 3.2.
+#pragma once
+
+#include "components/garment.h"
+#include "components/surface.h"
+
+namespace pleat {
+
+/// n_i = N_i / |N_i|, a sum over the faces j around i with unit normals n_j:
+///   kFlat, kPn  N_i = sum w_ij n_j: the base normal. w_ij is about 1, less as the face collapses (base_normal.h)
+///   kPaper      N_i = sum |f_i^j| n_j, eq (3); the base normal only where no force is
+///   kPleat      N_i = sum w_ij n_j (1 + |f_i^j| / f0), f0 = the force at 5 % strain of a mean edge
+/// f_i^j is eq (4), the sum of the forces of eq (1) along the face's two edges at i. Below f0 the ratios of forces are
+/// mostly noise, which turns the normals of eq (3) at random; and without w_ij they jump when a face turns over. The
+/// stiffness k is common to all forces and drops out.
+/// Reads:  garment faces and rest lengths; position (P) m
+/// Writes: normal (P) unit
+/// Cost:   O(F + P), no allocation. Errors: none; where the faces around cancel, or there is none, the normal is some
+///         fixed unit vector.
+struct ParticleNormals {
+  SurfaceMode mode = SurfaceMode::kPleat;
+  const Garment* garment = nullptr;
+  ConstVec3View position;
+  Vec3View normal;
+
+  bool validate() const;
+  void run() const;
+};
+
+}  // namespace pleat

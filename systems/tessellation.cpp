@@ -1,0 +1,132 @@
+#include "systems/tessellation.h"
+
+#include <algorithm>
+
+#include "components/pn_edge.h"
+#include "components/pn_triangle.h"
+
+namespace pleat {
+namespace {
+
+void draw_flat(const Tessellation& s) {
+  const Garment& g = *s.garment;
+  const TessellationPattern& pattern = *s.pattern;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const Vec3 a = s.position[g.edge_particle[0][e]], d = s.position[g.edge_particle[1][e]] - a;
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
+      s.drawn_position.set(pattern.edge_vertex(e, step), a + d * t);
+    }
+  }
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    const Vec3 a = s.position[g.face_particle[0][f]], b = s.position[g.face_particle[1][f]],
+               c = s.position[g.face_particle[2][f]];
+    std::uint32_t vertex = pattern.face_vertex(f, 0);
+    for (const InnerPoint& q : pattern.inner) {
+      s.drawn_position.set(vertex++, a * q.face[0] + b * q.face[1] + c * q.face[2]);
+    }
+  }
+}
+
+PnEdge pn_edge(const Tessellation& s, std::uint32_t e) {
+  const std::uint32_t i = s.garment->edge_particle[0][e], j = s.garment->edge_particle[1][e];
+  return {s.position[i], s.position[j], s.normal[i], s.normal[j]};
+}
+
+/// kPn, and with `folded` kPleat.
+void draw_curved(const Tessellation& s, bool folded) {
+  const Garment& g = *s.garment;
+  const TessellationPattern& pattern = *s.pattern;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const PnEdge curve = pn_edge(s, e);
+    const float height = folded ? s.fold_height[e] : 0.0f;
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
+      const Vec3 x = curve.point(t);
+      s.drawn_position.set(pattern.edge_vertex(e, step), height == 0.0f ? x : x + s.fold[e] * (height * fold_shape(t)));
+    }
+  }
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    const std::uint32_t p[3] = {g.face_particle[0][f], g.face_particle[1][f], g.face_particle[2][f]};
+    const PnTriangle face({s.position[p[0]], s.position[p[1]], s.position[p[2]]},
+                          {s.normal[p[0]], s.normal[p[1]], s.normal[p[2]]});
+    Vec3 moved[3];
+    bool any_fold = false;
+    for (int k = 0; folded && k < 3; ++k) {
+      const std::uint32_t e = g.face_edge[k][f];
+      moved[k] = s.fold[e] * s.fold_height[e];
+      any_fold |= s.fold_height[e] != 0.0f;
+    }
+    std::uint32_t vertex = pattern.face_vertex(f, 0);
+    for (const InnerPoint& q : pattern.inner) {
+      Vec3 x = face.point(q.face, q.bend);
+      if (any_fold) x += moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2];
+      s.drawn_position.set(vertex++, x);
+    }
+  }
+}
+
+void draw_paper(const Tessellation& s) {
+  const Garment& g = *s.garment;
+  const TessellationPattern& pattern = *s.pattern;
+  const auto moved_middle = [&](std::uint32_t e) { return pn_edge(s, e).middle() + s.fold[e] * s.fold_height[e]; };
+
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+    const Vec3 middle = moved_middle(e);
+    const PnEdge first(s.position[i], middle, s.normal[i], s.fold[e]);
+    const PnEdge second(middle, s.position[j], s.fold[e], s.normal[j]);
+    const std::uint32_t half = pattern.segments / 2;
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      const float t = static_cast<float>(step < half ? step : step - half) / static_cast<float>(half);
+      s.drawn_position.set(pattern.edge_vertex(e, step), (step < half ? first : second).point(t));
+    }
+  }
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    Vec3 corner[3], corner_normal[3], middle[3], middle_normal[3];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      corner[k] = s.position[g.face_particle[k][f]];
+      corner_normal[k] = s.normal[g.face_particle[k][f]];
+      middle[k] = moved_middle(g.face_edge[k][f]);
+      middle_normal[k] = s.fold[g.face_edge[k][f]];
+    }
+    const auto corner_patch = [&](std::uint32_t k) {
+      const std::uint32_t l = (k + 2) % 3;
+      return PnTriangle({corner[k], middle[k], middle[l]}, {corner_normal[k], middle_normal[k], middle_normal[l]});
+    };
+    const PnTriangle patch[4] = {corner_patch(0), corner_patch(1), corner_patch(2), PnTriangle(middle, middle_normal)};
+    std::uint32_t vertex = pattern.face_vertex(f, 0);
+    for (const InnerPoint& q : pattern.inner) {
+      s.drawn_position.set(vertex++, patch[q.patch].point(q.local, bend_weights(q.local)));
+    }
+  }
+}
+
+}  // namespace
+
+bool Tessellation::validate() const {
+  const bool curved = mode != SurfaceMode::kFlat;
+  const bool folded = mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat;
+  return mode <= SurfaceMode::kPleat && garment != nullptr && pattern != nullptr && position.x != nullptr &&
+         (!curved || normal.x != nullptr) && (!folded || (fold.x != nullptr && fold_height != nullptr)) &&
+         drawn_position.x != nullptr;
+}
+
+void Tessellation::run() const {
+  const std::uint32_t particles = garment->particle_count;
+  std::copy(position.x, position.x + particles, drawn_position.x);
+  std::copy(position.y, position.y + particles, drawn_position.y);
+  std::copy(position.z, position.z + particles, drawn_position.z);
+  switch (mode) {
+    case SurfaceMode::kFlat:
+      return draw_flat(*this);
+    case SurfaceMode::kPn:
+      return draw_curved(*this, false);
+    case SurfaceMode::kPaper:
+      return draw_paper(*this);
+    case SurfaceMode::kPleat:
+      return draw_curved(*this, true);
+  }
+}
+
+}  // namespace pleat

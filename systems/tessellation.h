@@ -1,0 +1,36 @@
+// The drawn surface: a point on the curved face for every vertex of the tessellation pattern.
+//   M. Oshita, A. Makinouchi, "Real-time Cloth Simulation with Sparse Particles and Curved Faces", 2001,
+//   sections 3.1, 3.3.
+#pragma once
+
+#include "components/surface.h"
+#include "components/tessellation_pattern.h"
+
+namespace pleat {
+
+/// Drawn vertices at particles are the particles; those on an edge depend on the edge's data alone, so that the faces
+/// on both sides share them; those inside are each face's own.
+///   kFlat   the flat triangles
+///   kPn     PN triangles (components/pn_triangle.h)
+///   kPaper  each face in four: PN triangles over its corners and its edges' moved middles
+///   kPleat  the PN triangle plus the folds h n of its three edges, faded out over the four parts. A face without
+///           folds is drawn as by kPn, bit for bit
+/// Reads:  garment faces and edges; pattern; position (P) m; normal (P) unit, not for kFlat; fold (E) unit and
+///         fold_height (E) m, for kPaper and kPleat only
+/// Writes: drawn_position (V) m
+/// Cost:   O(V), no allocation. Errors: none.
+struct Tessellation {
+  SurfaceMode mode = SurfaceMode::kPleat;
+  const Garment* garment = nullptr;
+  const TessellationPattern* pattern = nullptr;
+  ConstVec3View position;
+  ConstVec3View normal;
+  ConstVec3View fold;
+  const float* fold_height = nullptr;
+  Vec3View drawn_position;
+
+  bool validate() const;
+  void run() const;
+};
+
+}  // namespace pleat
