@@ -11,22 +11,13 @@
 
 namespace pleat {
 
-/// What the cross product of two sides of face f is multiplied by at its corners 0, 1, 2; 1/m^2. With the mean edge
-/// length in the numerator a face at rest counts about as much as a unit vector.
-inline std::array<float, 3> corner_weights(const Garment& g, std::uint32_t f) {
-  float side2[3];
-  for (int k = 0; k < 3; ++k) {
-    const float l = g.edge_rest_length[g.face_edge[k][f]];
-    side2[k] = l * l;
-  }
-  const float scale = g.mean_edge_length * g.mean_edge_length / (side2[0] * side2[1] * side2[2]);
-  return {scale * side2[1], scale * side2[2], scale * side2[0]};  // the side across from the corner cancels
-}
-
-/// The doubled area of face f times its unit normal, m^2.
-inline Vec3 face_cross(const Garment& g, std::uint32_t f, ConstVec3View position) {
-  const Vec3 a = position[g.face_particle[0][f]];
-  return cross(position[g.face_particle[1][f]] - a, position[g.face_particle[2][f]] - a);
+/// What the cross product of two sides of a face is multiplied by at its corners 0, 1, 2; 1/m^2.
+/// side: rest lengths of the face's sides 0, 1, 2, m. With the mean edge length of the garment in the numerator a face
+/// at rest counts about as much as a unit vector.
+inline std::array<float, 3> corner_weights(const std::array<float, 3>& side, float mean_length) {
+  const std::array<float, 3> square{side[0] * side[0], side[1] * side[1], side[2] * side[2]};
+  const float scale = mean_length * mean_length / (square[0] * square[1] * square[2]);
+  return {scale * square[1], scale * square[2], scale * square[0]};  // the side across from the corner cancels
 }
 
 /// What stands in for a normal that the faces around a point do not give: any fixed unit vector.

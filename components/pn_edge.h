@@ -41,30 +41,35 @@ struct PnEdgeNode {
   float uu, vv, uv;  // |c'|^2 = d.d + uu u.u + vv v.v + uv u.v, for d.u = u.u and d.v = -v.v
 };
 
-/// Five Gauss points on each half of the edge: the fold is a cubic on each.
-inline constexpr std::array<PnEdgeNode, 10> kPnEdgeNodes = [] {
-  constexpr float kPoint[5] = {0.0469100770f, 0.2307653449f, 0.5f, 0.7692346551f, 0.9530899230f};
-  constexpr float kWeight[5] = {0.1184634425f, 0.2393143352f, 0.2844444444f, 0.2393143352f, 0.1184634425f};
-  std::array<PnEdgeNode, 10> nodes{};
-  for (std::size_t i = 0; i < 10; ++i) {
-    const float x = kPoint[i % 5], t = 0.5f * (x + (i < 5 ? 0.0f : 1.0f));
+/// Four Gauss points on each half of the edge, for the fold is a cubic on each.
+inline constexpr std::array<PnEdgeNode, 8> kPnEdgeNodes = [] {
+  constexpr float kPoint[4] = {0.0694318442f, 0.3300094782f, 0.6699905218f, 0.9305681558f};
+  constexpr float kWeight[4] = {0.1739274226f, 0.3260725774f, 0.3260725774f, 0.1739274226f};
+  std::array<PnEdgeNode, 8> nodes{};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const bool first_half = i < 4;
+    const float x = kPoint[i % 4], t = 0.5f * (first_half ? x : 1.0f + x);
     const float u_rate = (1.0f - t) * (3.0f * t - 1.0f), v_rate = t * (3.0f * t - 2.0f);
-    const float fold_rate = (i < 5 ? 12.0f : -12.0f) * x * (1.0f - x);
-    nodes[i] = {
-        0.5f * kWeight[i % 5], u_rate, v_rate, fold_rate, u_rate * u_rate + 2 * u_rate, v_rate * v_rate - 2.0f * v_rate,
-        2.0f * u_rate * v_rate};
+    nodes[i] = {.weight = 0.5f * kWeight[i % 4],
+                .u_rate = u_rate,
+                .v_rate = v_rate,
+                .fold_rate = (first_half ? 12.0f : -12.0f) * x * (1.0f - x),
+                .uu = u_rate * (u_rate + 2.0f),
+                .vv = v_rate * (v_rate - 2.0f),
+                .uv = 2.0f * u_rate * v_rate};
   }
   return nodes;
 }();
+using PnEdgeSpeeds = std::array<float, kPnEdgeNodes.size()>;  // |c'|^2 at the nodes, m^2
 
 /// Squared speeds below this, m^2, are taken for it: a collapsed edge has a length and no direction.
 inline constexpr float kLeastSquaredSpeed = 1e-16f;
 
 /// |c'|^2 at each node, m^2.
-inline std::array<float, 10> squared_speeds(const PnEdge& c) {
+inline PnEdgeSpeeds squared_speeds(const PnEdge& c) {
   const float dd = dot(c.d, c.d), uu = dot(c.u, c.u), vv = dot(c.v, c.v), uv = dot(c.u, c.v);
-  std::array<float, 10> speeds{};
-  for (std::size_t i = 0; i < 10; ++i) {
+  PnEdgeSpeeds speeds{};
+  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
     const float s = dd + q.uu * uu + q.vv * vv + q.uv * uv;
     speeds[i] = s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed;
@@ -73,9 +78,9 @@ inline std::array<float, 10> squared_speeds(const PnEdge& c) {
 }
 
 /// Length of the curve without a fold, m. Every user gets the same bits for the same edge.
-inline float curve_length(const std::array<float, 10>& squared_speed) {
+inline float curve_length(const PnEdgeSpeeds& squared_speed) {
   float l = 0.0f;
-  for (std::size_t i = 0; i < 10; ++i) l += kPnEdgeNodes[i].weight * std::sqrt(squared_speed[i]);
+  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) l += kPnEdgeNodes[i].weight * std::sqrt(squared_speed[i]);
   return l;
 }
 

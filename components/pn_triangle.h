@@ -28,6 +28,7 @@ struct PnTriangle {
   Vec3 corner[3];
   Vec3 bend[6];  // w_kl N_k and w_lk N_l of side k = 0, 1, 2
 
+  PnTriangle() = default;
   PnTriangle(const Vec3 (&p)[3], const Vec3 (&n)[3]) : corner{p[0], p[1], p[2]} {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;

@@ -12,9 +12,11 @@ void measure_rest_curves(Garment& garment) {
   const ConstVec3View position = g.rest_position.view();
   std::vector<Vec3> normal(g.particle_count);
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    const Vec3 face = face_cross(g, f, position);
-    const std::array<float, 3> weight = corner_weights(g, f);
-    for (std::size_t k = 0; k < 3; ++k) normal[g.face_particle[k][f]] += face * weight[k];
+    const std::uint32_t i = g.face_particle[0][f], j = g.face_particle[1][f], k = g.face_particle[2][f];
+    const Vec3 face = cross(position[j] - position[i], position[k] - position[i]);
+    const auto side = [&](std::size_t s) { return g.edge_rest_length[g.face_edge[s][f]]; };
+    const std::array<float, 3> weight = corner_weights({side(0), side(1), side(2)}, g.mean_edge_length);
+    normal[i] += face * weight[0], normal[j] += face * weight[1], normal[k] += face * weight[2];
   }
   for (Vec3& n : normal) n = normalized_or(n, kAnyNormal);
 

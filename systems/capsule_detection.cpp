@@ -17,8 +17,9 @@ struct CapsuleTest {
   const CapsuleDetection& in;
   const CapsulePose& capsule;
   ContactRowMaker rows;
+  float margin;
   float distance = capsule.radius + in.thickness;  // that is kept from the core
-  float reach = distance + kContactMargin;
+  float reach = distance + margin;
   float* distance2 = in.scratch;                                   // (P) squared, from the core
   const float* length2 = in.scratch + in.garment->particle_count;  // (E) squared
 
@@ -133,8 +134,9 @@ void CapsuleDetection::run(Stats& stats) const {
     const Vec3 d = position[garment->edge_particle[1][e]] - position[garment->edge_particle[0][e]];
     length2[e] = dot(d, d);
   }
-  const ContactRowMaker rows{position, inverse_mass, friction, dt, contacts};
-  for (std::uint32_t c = 0; c < capsule_count; ++c) CapsuleTest{*this, capsules[c], rows}.run(stats);
+  const float margin = contact_margin(position, previous, garment->particle_count);
+  const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
+  for (std::uint32_t c = 0; c < capsule_count; ++c) CapsuleTest{*this, capsules[c], rows, margin}.run(stats);
 }
 
 }  // namespace pleat

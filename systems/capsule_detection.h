@@ -11,7 +11,7 @@
 
 namespace pleat {
 
-/// Adds a row for each feature of the cloth nearer than radius + thickness + kContactMargin to a capsule's core, at the
+/// Adds a row for each feature of the cloth nearer than radius + thickness + contact_margin to a capsule's core, at the
 /// end of the substep. The normal points to the side on which the feature was when the substep began, so that what has
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
 /// than radius + thickness.

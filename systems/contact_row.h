@@ -7,16 +7,24 @@
 
 namespace pleat {
 
-/// Rows are made for what is nearer than thickness + kContactMargin, so that the sweeps find the plane of whatever a
-/// particle may be moved against. m
-inline constexpr float kContactMargin = 0.01f;
+/// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
+/// may be moved against: 10 mm, or more for a cloth that moves further in the substep. m
+inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
+  float motion2 = 0.0f;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3 d = position[i] - previous[i];
+    motion2 = std::max(motion2, dot(d, d));
+  }
+  return std::max(0.01f, std::sqrt(motion2));
+}
 
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s
 inline constexpr float kRecoverySpeed = 2.0f;
 
-/// Keeps d <= (where the point is) + (body's motion + kRecoverySpeed dt): in one substep a row pushes no further.
+/// A row undoes whatever brought the point nearer to the body in this substep, and of what was missing before it
+/// kRecoverySpeed dt: offset <= n . (where the point would be, had it moved with the body) + kRecoverySpeed dt.
 struct ContactRowMaker {
-  ConstVec3View position;
+  ConstVec3View previous;  // when the substep began
   const float* inverse_mass = nullptr;
   float friction = 0.0f;
   float dt = 0.0f;
@@ -34,14 +42,13 @@ struct ContactRowMaker {
                    .inverse_mass = 0.0f,
                    .push = 0.0f,
                    .at_particle = at_particle};
-    Vec3 point;
+    Vec3 carried = body_step;
     for (int k = 0; k < 3; ++k) {
-      point += position[particle[k]] * weight[k];
+      carried += previous[particle[k]] * weight[k];
       row.inverse_mass += inverse_mass[particle[k]] * weight[k] * weight[k];
     }
     if (!(row.inverse_mass > 0.0f)) return;
-    row.offset =
-        std::min(dot(normal, surface) + distance, dot(normal, point) + length(body_step) + kRecoverySpeed * dt);
+    row.offset = std::min(dot(normal, surface) + distance, dot(normal, carried) + kRecoverySpeed * dt);
     if (!contacts.add(row)) ++stats.contacts_dropped;
   }
 };

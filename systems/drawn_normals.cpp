@@ -16,14 +16,15 @@ void DrawnNormals::run() const {
   const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / vertices);
 
   clear(normal, pattern->vertex_count);
-  Vec3Block x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];
+  Vec3Block x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];  // a lane is a face
   for (std::uint32_t begin = 0; begin < faces; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, faces - begin);
     const std::uint32_t* drawn = pattern->face_vertices.data() + std::size_t{begin} * vertices;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t* own = drawn + std::size_t{std::min(lane, count - 1)} * vertices;
-      for (std::uint32_t v = 0; v < vertices; ++v) x[v].set(lane, position[own[v]]), n[v].set(lane, {});
+      for (std::uint32_t v = 0; v < vertices; ++v) x[v].set(lane, position[own[v]]);
     }
+    std::fill_n(n, vertices, Vec3Block{});
     for (std::size_t t = 0; t < triangle_indices; t += 3) {
       const Vec3Block &a = x[triangles[t]], &b = x[triangles[t + 1]], &c = x[triangles[t + 2]];
       Vec3Block area;

@@ -14,7 +14,7 @@ constexpr float kTiny = 1e-20f;
 
 constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums
 constexpr float kPaperStart = 1.4f;       // k of eq (6)
-constexpr int kMaxBisections = 32;
+constexpr int kMaxBisections = 64;
 
 struct Fold {
   Vec3 direction;
@@ -23,7 +23,7 @@ struct Fold {
 
 // Free of branches: the compiler runs it on several edges at once.
 inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
-  const std::array<float, 10> speed2 = squared_speeds(c);
+  const PnEdgeSpeeds speed2 = squared_speeds(c);
   const float length0 = curve_length(speed2);
 
   const Vec3 tangent = c.middle_tangent();
@@ -33,9 +33,9 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
 
   // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
   const float dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
-  std::array<float, 10> rise;
+  PnEdgeSpeeds rise;
   float slope = 0.0f;  // dL/dh at h = 0
-  for (std::size_t i = 0; i < 10; ++i) {
+  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
     rise[i] = q.fold_rate * (dn + q.u_rate * un + q.v_rate * vn);
     slope += q.weight * rise[i] / std::sqrt(speed2[i]);
@@ -51,15 +51,13 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
   const float gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
   float h = gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny);
 
-  float length_h = 0.0f, slope_h = 0.0f;
-  for (std::size_t i = 0; i < 10; ++i) {
+  float length_h = 0.0f;
+  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
-    const float bend = h * q.fold_rate * q.fold_rate;
-    const float s = speed2[i] + h * (2.0f * side * rise[i] + bend);
-    const float speed = std::sqrt(s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed);
-    length_h += q.weight * speed;
-    slope_h += q.weight * (side * rise[i] + bend) / speed;
+    const float s = speed2[i] + h * (2.0f * side * rise[i] + h * q.fold_rate * q.fold_rate);
+    length_h += q.weight * std::sqrt(s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed);
   }
+  const float slope_h = (beta + gamma * h) / wanted;  // of the closed form
   h += (wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
   h = h > 0.0f ? h : 0.0f;
 
@@ -102,13 +100,16 @@ Vec3 quadratic_normal(const Vec3& d, const Vec3& na, const Vec3& nb) {
   return normalized_or(sum + normalized_or(reflected, {}), na);
 }
 
-/// Length by sums of 8 and of 4 chords, extrapolated to infinitely many.
+/// Length by sums of 16 and of 8 chords, extrapolated to infinitely many.
 float chord_length(const PnEdge& c) {
-  Vec3 point[9];
-  for (int i = 0; i <= 8; ++i) point[i] = c.point(0.125f * static_cast<float>(i));
+  constexpr int kChords = 16;
+  Vec3 point[kChords + 1];
+  for (int i = 0; i <= kChords; ++i) point[i] = c.point(static_cast<float>(i) / kChords);
   float fine = 0.0f, coarse = 0.0f;
-  for (int i = 0; i < 8; ++i) fine += length(point[i + 1] - point[i]);
-  for (int i = 0; i < 8; i += 2) coarse += length(point[i + 2] - point[i]);
+  for (int i = 0; i < kChords; i += 2) {
+    fine += length(point[i + 1] - point[i]) + length(point[i + 2] - point[i + 1]);
+    coarse += length(point[i + 2] - point[i]);
+  }
   return (4.0f * fine - coarse) / 3.0f;
 }
 
@@ -121,12 +122,13 @@ Fold paper_fold(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb, fl
   const float tolerance = 0.5f * kPaperTolerance * target;
   if (missing(0.0f) <= tolerance) return {n, 0.0f};
 
-  float low = 0.0f, high = std::max(kPaperStart * (target - length(b - a)), tolerance);  // eq (6)
-  for (int i = 0; i < kMaxBisections && missing(high) > 0.0f; ++i) low = high, high *= 2.0f;
-  float h = high;
-  for (int i = 0; i < kMaxBisections && std::abs(missing(h)) > tolerance; ++i) {
-    h = 0.5f * (low + high);
-    (missing(h) > 0.0f ? low : high) = h;
+  float h = std::max(kPaperStart * (target - length(b - a)), tolerance);  // eq (6)
+  float low = 0.0f, high = 0.0f;                                          // high: none yet
+  for (int i = 0; i < kMaxBisections; ++i) {
+    const float m = missing(h);
+    if (std::abs(m) <= tolerance) break;
+    (m > 0.0f ? low : high) = h;
+    h = high == 0.0f ? 2.0f * h : 0.5f * (low + high);
   }
   return {n, h};
 }

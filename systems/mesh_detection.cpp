@@ -33,10 +33,12 @@ struct MeshTest {
   const MeshDetection& in;
   MeshPose pose;
   ContactRowMaker rows;
+  float margin;
   Stats& stats;
   float friction = pose.mesh.friction;
-  float reach = in.thickness + kContactMargin;
-  float search = std::max(reach, kMeshDepth);
+  float reach = in.thickness + margin;
+  // Particles that start deep are looked for once a tick only.
+  float search = in.t0 == 0.0f ? std::max(reach, kMeshDepth) : reach;
 
   void test_face(std::uint32_t face, std::size_t mesh) const {
     Face f;
@@ -95,6 +97,8 @@ struct MeshTest {
   }
 
   static void find_nearest(const Vec3& p, std::uint32_t t, const MeshPose::Corners& body, Nearest& nearest) {
+    const Box near = Box{p, p}.grown(std::sqrt(nearest.distance2));
+    if (!near.overlaps(body.box())) return;
     const Barycentrics at = closest_on_triangle(p, body.a, body.b, body.c);
     const Vec3 d = p - at.point(body.a, body.b, body.c);
     if (dot(d, d) < nearest.distance2) nearest = {dot(d, d), t, at};
@@ -151,48 +155,49 @@ struct MeshTest {
              stats);
   }
 
-  /// Edge c of the face against edge k of triangle t.
+  /// Edge c of the face against edge k of triangle t. They matter where, seen along their common normal, they cross;
+  /// elsewhere an end of one is nearer and has a test of its own.
   void test_edges(const Face& f, int c, std::uint32_t t, const MeshPose::Corners& body, int k) const {
     const std::size_t i = static_cast<std::size_t>(c), j = (i + 1) % 3;
-    const Vec3 a = body[k], b = body[(k + 1) % 3];
-    const SegmentPair at = closest_between_segments(f.x[i], f.x[j], a, b);
-    if (!(at.s > 0.0f && at.s < 1.0f && at.t > 0.0f && at.t < 1.0f)) return;
-    const Vec3 surface = lerp(a, b, at.t), away = lerp(f.x[i], f.x[j], at.s) - surface;
-    if (!(dot(away, away) < reach * reach)) return;
-
+    const Vec3 a = body[k], b = body[(k + 1) % 3], along = b - a;
+    const Vec3 edge = f.x[j] - f.x[i], between = a - f.x[i], common = cross(edge, along);
+    const float common2 = dot(common, common), gap = dot(between, common);
+    if (gap * gap >= reach * reach * common2) return;
+    const float s = dot(cross(between, along), common), r = dot(cross(between, edge), common);
+    if (!(s > 0.0f && s < common2 && r > 0.0f && r < common2)) return;
     const std::uint32_t across = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(k)];
     if (across == kNoTriangle) return;  // over a border it cannot be told what is outside
     const MeshPose::Corners other = pose.corners(across);
-    const Vec3 n1 = body.normal(), n2 = other.normal(), along = b - a;
+    const Vec3 n1 = body.normal(), n2 = other.normal();
     // Of the ridge's two faces, the directions into them; a valley or a flat edge is never met first.
     const Vec3 into1 = cross(n1, along), into2 = cross(along, n2);
     if (dot(n1, into2) > -1e-3f * length(into2)) return;
-    const Vec3 crossing = normalized_or(cross(along, f.x[j] - f.x[i]), n1 + n2);
-    const bool touching = dot(away, away) < kTouching * kTouching;
-    Vec3 normal = touching ? crossing : normalized_or(away, crossing);
-    if (dot(normal, n1 + n2) < 0.0f) normal = -normal;
+    const float side = dot(common, n1 + n2) < 0.0f ? -1.0f : 1.0f;
+    const Vec3 normal = common * (side / std::sqrt(common2));
     if (dot(normal, into1) > 1e-3f * length(into1) || dot(normal, into2) > 1e-3f * length(into2)) return;
 
+    const SegmentPair at{s / common2, r / common2};
     const std::uint32_t va = pose.corner(t, k), vb = pose.corner(t, (k + 1) % 3);
-    rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - at.s, at.s, 0.0f}, normal, surface, in.thickness,
-             lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
+    rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - at.s, at.s, 0.0f}, normal, lerp(a, b, at.t),
+             in.thickness, lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
   }
 };
 
 }  // namespace
 
 bool MeshDetection::validate() const {
-  return garment != nullptr && position.x != nullptr && inverse_mass != nullptr && bodies != nullptr &&
-         (meshes != nullptr || bodies->mesh_count() == 0) && contacts.count != nullptr && thickness >= 0.0f &&
-         friction >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
+  return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
+         bodies != nullptr && (meshes != nullptr || bodies->mesh_count() == 0) && contacts.count != nullptr &&
+         thickness >= 0.0f && friction >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
 }
 
 void MeshDetection::run(Stats& stats) const {
-  const Box box = box_of(position, garment->particle_count).grown(std::max(thickness + kContactMargin, kMeshDepth));
-  const ContactRowMaker rows{position, inverse_mass, friction, dt, contacts};
+  const float margin = contact_margin(position, previous, garment->particle_count);
+  const Box box = box_of(position, garment->particle_count).grown(std::max(thickness + margin, kMeshDepth));
+  const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   for (std::size_t m = 0; m < bodies->mesh_count(); ++m) {
     if (!meshes[m]->enabled || !box.overlaps(bodies->swept_box(m))) continue;
-    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, stats};
+    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, margin, stats};
     for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
   }
 }

@@ -11,16 +11,17 @@ namespace pleat {
 
 /// Adds rows against mesh bodies at the fraction t1 of the tick, the end of the substep:
 ///   particles: against the nearest point of the body; the angle-weighted normal there tells inside from outside
-///              (J. Baerentzen, H. Aanaes, 2005). One inside is pushed out if it is no deeper than kMeshDepth;
+///              (J. Baerentzen, H. Aanaes, 2005). One inside is pushed out if it is no deeper than 30 mm;
 ///   edges:     against ridges of the body, while the normal lies between those of the ridge's two triangles;
 ///   faces:     against vertices of the body that stand out towards the face.
 /// Both latter tests leave out what another row says already, so that rows stay few on smooth bodies.
-/// Reads:  garment edges, faces; position (P) m; inverse_mass (P) 1/kg; meshes and their trees
+/// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; meshes and their trees
 /// Writes: contacts, added to; stats.contacts_dropped
 /// Cost:   O(F log T + close pairs), no allocation. Errors: none; features without extent make finite rows or none.
 struct MeshDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
+  ConstVec3View previous;  // when the substep began
   const float* inverse_mass = nullptr;
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "systems/body_topology.h"
+#include "systems/box.h"
 #include "systems/closest_points.h"
 
 namespace pleat {
@@ -22,6 +23,12 @@ struct MeshPose {
   struct Corners {
     Vec3 a, b, c;
     Vec3 operator[](int k) const { return k == 0 ? a : k == 1 ? b : c; }
+    Box box() const {
+      Box around{a, a};
+      around.include(b);
+      around.include(c);
+      return around;
+    }
     /// Outward, unit; zero where the triangle has no area.
     Vec3 normal() const { return normalized_or(cross(b - a, c - a), Vec3{}); }
   };

@@ -4,6 +4,7 @@
 
 #include "components/pn_edge.h"
 #include "components/pn_triangle.h"
+#include "components/vec3_block.h"
 
 namespace pleat {
 namespace {
@@ -33,35 +34,73 @@ PnEdge pn_edge(const Tessellation& s, std::uint32_t e) {
   return {s.position[i], s.position[j], s.normal[i], s.normal[j]};
 }
 
-/// kPn, and with `folded` kPleat.
-void draw_curved(const Tessellation& s, bool folded) {
+/// kPn, and with `folded` kPleat: the vertices on edges.
+void draw_curved_edges(const Tessellation& s, bool folded) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
-  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
-    const PnEdge curve = pn_edge(s, e);
-    const float height = folded ? s.fold_height[e] : 0.0f;
+  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
+    Vec3Block a, b, na, nb, moved{}, x;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t e = begin + std::min(lane, count - 1);
+      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
+      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
+      if (folded) moved.set(lane, s.fold[e] * s.fold_height[e]);
+    }
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
       const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
-      const Vec3 x = curve.point(t);
-      s.drawn_position.set(pattern.edge_vertex(e, step), height == 0.0f ? x : x + s.fold[e] * (height * fold_shape(t)));
+      const float share = fold_shape(t);
+      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+        x.set(lane, PnEdge(a[lane], b[lane], na[lane], nb[lane]).point(t) + moved[lane] * share);
+      }
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
+      }
     }
   }
-  for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    const std::uint32_t p[3] = {g.face_particle[0][f], g.face_particle[1][f], g.face_particle[2][f]};
-    const PnTriangle face({s.position[p[0]], s.position[p[1]], s.position[p[2]]},
-                          {s.normal[p[0]], s.normal[p[1]], s.normal[p[2]]});
-    Vec3 moved[3];
+}
+
+/// kPn, and with `folded` kPleat: the vertices inside faces.
+void draw_curved_faces(const Tessellation& s, bool folded) {
+  const Garment& g = *s.garment;
+  const TessellationPattern& pattern = *s.pattern;
+  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
+    Vec3Block corner[3], normal[3], bend[6], moved[3]{}, x;
     bool any_fold = false;
-    for (int k = 0; folded && k < 3; ++k) {
-      const std::uint32_t e = g.face_edge[k][f];
-      moved[k] = s.fold[e] * s.fold_height[e];
-      any_fold |= s.fold_height[e] != 0.0f;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t f = begin + std::min(lane, count - 1);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        corner[k].set(lane, s.position[g.face_particle[k][f]]);
+        normal[k].set(lane, s.normal[g.face_particle[k][f]]);
+        const std::uint32_t e = g.face_edge[k][f];
+        if (!folded || s.fold_height[e] == 0.0f) continue;
+        moved[k].set(lane, s.fold[e] * s.fold_height[e]);
+        any_fold = true;
+      }
     }
-    std::uint32_t vertex = pattern.face_vertex(f, 0);
-    for (const InnerPoint& q : pattern.inner) {
-      Vec3 x = face.point(q.face, q.bend);
-      if (any_fold) x += moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2];
-      s.drawn_position.set(vertex++, x);
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const PnTriangle face({corner[0][lane], corner[1][lane], corner[2][lane]},
+                            {normal[0][lane], normal[1][lane], normal[2][lane]});
+      for (std::size_t i = 0; i < 6; ++i) bend[i].set(lane, face.bend[i]);
+    }
+    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
+      const InnerPoint& q = pattern.inner[i];
+      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+        PnTriangle face;
+        for (std::size_t k = 0; k < 3; ++k) face.corner[k] = corner[k][lane];
+        for (std::size_t k = 0; k < 6; ++k) face.bend[k] = bend[k][lane];
+        x.set(lane, face.point(q.face, q.bend));
+      }
+      if (any_fold) {
+        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+          x.set(lane, x[lane] + (moved[0][lane] * q.fold[0] + moved[1][lane] * q.fold[1] + moved[2][lane] * q.fold[2]));
+        }
+      }
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        s.drawn_position.set(pattern.face_vertex(begin + lane, i), x[lane]);
+      }
     }
   }
 }
@@ -121,11 +160,11 @@ void Tessellation::run() const {
     case SurfaceMode::kFlat:
       return draw_flat(*this);
     case SurfaceMode::kPn:
-      return draw_curved(*this, false);
+      return draw_curved_edges(*this, false), draw_curved_faces(*this, false);
     case SurfaceMode::kPaper:
       return draw_paper(*this);
     case SurfaceMode::kPleat:
-      return draw_curved(*this, true);
+      return draw_curved_edges(*this, true), draw_curved_faces(*this, true);
   }
 }
 

@@ -1,0 +1,186 @@
+#include "bench/budget.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+
+#include "bench/counting_new.h"
+#include "bench/scene_quality.h"
+#include "demo/program/progress.h"
+#include "demo/scenes/drawn_surface.h"
+#include "demo/scenes/scene.h"
+
+namespace pleat::bench {
+namespace {
+
+using demo::DrawnSurface;
+using demo::Progress;
+using demo::Scene;
+using demo::SceneDef;
+using demo::Spread;
+using demo::StageClock;
+using NamedSpread = std::pair<std::string, Spread>;
+
+constexpr uint32_t kWarmUp = 10;  // frames that may still allocate
+
+std::vector<DrawnSurface> make_surfaces(const Scene& scene) {
+  std::vector<DrawnSurface> surfaces;
+  for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
+  return surfaces;
+}
+
+/// What a host does in a frame: write pins and colliders, step, read what is drawn into its own buffer.
+void host_frame(Scene& scene, std::vector<DrawnSurface>& surfaces) {
+  scene.step();
+  for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
+}
+
+struct TimedRun {
+  std::vector<double> frames;  // us
+  uint64_t allocations = 0;    // after warm-up
+};
+
+TimedRun time_frames(const pleat_api& api, const SceneDef& def, Progress& progress) {
+  Scene scene(api, def);
+  std::vector<DrawnSurface> surfaces = make_surfaces(scene);
+  TimedRun run;
+  run.frames.reserve(def.frames);
+  for (uint32_t frame = 0; frame < def.frames; ++frame) {
+    scene.pose_next();
+    const uint64_t allocations = allocation_count();
+    const auto start = std::chrono::steady_clock::now();
+    host_frame(scene, surfaces);
+    const auto end = std::chrono::steady_clock::now();
+    if (frame >= kWarmUp) run.allocations += allocation_count() - allocations;
+    run.frames.push_back(std::chrono::duration<double, std::micro>(end - start).count());
+    progress.step();
+  }
+  return run;
+}
+
+std::vector<StageClock::Stage> time_stages(const pleat_api& api, const SceneDef& def, Progress& progress) {
+  StageClock clock;
+  Scene scene(api, def, StageClock::on_stage, &clock);
+  std::vector<DrawnSurface> surfaces = make_surfaces(scene);
+  for (uint32_t frame = 0; frame < def.frames; ++frame) {
+    scene.pose_next();
+    clock.begin_frame();
+    host_frame(scene, surfaces);
+    clock.end_frame();
+    progress.step();
+  }
+  return clock.stages();
+}
+
+/// Adds up the systems of each stage, frame by frame.
+std::vector<StageClock::Stage> by_group(const std::vector<StageClock::Stage>& systems) {
+  std::vector<StageClock::Stage> groups;
+  for (const StageClock::Stage& system : systems) {
+    const std::string name = stage_group(system.name);
+    auto group = std::ranges::find(groups, name, &StageClock::Stage::name);
+    if (group == groups.end()) {
+      groups.push_back({name, system.frames});
+    } else {
+      std::ranges::transform(group->frames, system.frames, group->frames.begin(), std::plus());
+    }
+  }
+  return groups;
+}
+
+Spread best_of(const std::vector<std::vector<double>>& runs) {
+  std::vector<double> all, medians;
+  for (const std::vector<double>& run : runs) {
+    all.insert(all.end(), run.begin(), run.end());
+    medians.push_back(demo::spread_of(run).median);
+  }
+  Spread spread = demo::spread_of(std::move(all));
+  spread.median = *std::ranges::min_element(medians);
+  return spread;
+}
+
+using StageRuns = std::vector<std::vector<StageClock::Stage>>;
+
+std::vector<NamedSpread> best_stages(const StageRuns& runs) {
+  std::vector<NamedSpread> spreads;
+  for (size_t s = 0; s < runs[0].size(); ++s) {
+    std::vector<std::vector<double>> frames;
+    for (const auto& run : runs) frames.push_back(run[s].frames);
+    spreads.emplace_back(runs[0][s].name, best_of(frames));
+  }
+  return spreads;
+}
+
+/// Also finds what is known only once the scene has run.
+void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progress, Budget& budget) {
+  Scene scene(api, def);
+  std::vector<DrawnSurface> surfaces = make_surfaces(scene);
+  SceneQuality quality(scene);
+  for (uint32_t frame = 0; frame < def.frames; ++frame) {
+    scene.pose_next();
+    host_frame(scene, surfaces);
+    quality.add_frame(scene, surfaces);
+    progress.step();
+  }
+  budget.cloths = scene.cloths().size();
+  budget.cloth = scene.cloth_info(0);
+  quality.measure_rest(scene);
+  budget.quality = quality.result();
+}
+
+}  // namespace
+
+std::string stage_group(const std::string& system) {
+  static const std::map<std::string, std::string> kGroups = {
+      {"elastic_force", "forces"},        {"hinge_bending", "forces"},
+      {"edge_damping", "forces"},         {"gravity", "forces"},
+      {"air_damping", "forces"},          {"air_drag", "forces"},
+      {"pin_motion", "integration"},      {"euler_integration", "integration"},
+      {"finite_guard", "integration"},    {"runge_kutta_integration", "integration"},
+      {"velocity_update", "integration"}, {"stretch_constraint", "stretch"},
+      {"collider_motion", "collision"},   {"capsule_detection", "collision"},
+      {"mesh_detection", "collision"},    {"collision_response", "collision"},
+      {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
+      {"contact_velocity", "collision"},  {"collision_last_word", "collision"},
+      {"particle_normals", "normals"}};
+  const auto found = kGroups.find(system);
+  return found == kGroups.end() ? system : found->second;
+}
+
+double stage_sum(const std::vector<NamedSpread>& stages, std::span<const std::string_view> names) {
+  double sum = 0.0;
+  for (const auto& [name, spread] : stages) {
+    if (std::ranges::find(names, name) != names.end()) sum += spread.median;
+  }
+  return sum;
+}
+
+Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat) {
+  Budget budget{};
+  budget.repeat = repeat;
+  const bool folds = def.settings.surface == PLEAT_SURFACE_PAPER || def.settings.surface == PLEAT_SURFACE_PLEAT;
+  SceneDef pn = def;
+  pn.settings.surface = PLEAT_SURFACE_PN;
+  Progress progress("measuring, frame", def.frames * (repeat * (folds ? 3 : 2) + 1));
+
+  std::vector<std::vector<double>> frames;
+  StageRuns systems, groups, pn_groups;
+  uint64_t allocations = 0;
+  for (uint32_t r = 0; r < repeat; ++r) {  // in turn, so that a slow moment of the machine meets all alike
+    TimedRun run = time_frames(api, def, progress);
+    allocations += run.allocations;
+    frames.push_back(std::move(run.frames));
+    systems.push_back(time_stages(api, def, progress));
+    groups.push_back(by_group(systems.back()));
+    if (folds) pn_groups.push_back(by_group(time_stages(api, pn, progress)));
+  }
+  budget.frame = best_of(frames);
+  budget.systems = best_stages(systems);
+  budget.stages = best_stages(groups);
+  if (def.frames > kWarmUp) budget.allocations_per_frame = double(allocations) / repeat / (def.frames - kWarmUp);
+  if (folds) budget.pn_smoothing = stage_sum(best_stages(pn_groups), kSmoothingStages);
+  measure_quality(api, def, progress, budget);
+  return budget;
+}
+
+}  // namespace pleat::bench

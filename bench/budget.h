@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/quality.h"
+#include "demo/scenes/scene_def.h"
+#include "demo/scenes/stage_clock.h"
+
+namespace pleat::bench {
+
+/// What a frame of a scene costs. Times in us; the median is that of the best run, min and p99 are over all runs.
+struct Budget {
+  uint32_t repeat;
+  size_t cloths;
+  pleat_cloth_info cloth;
+  demo::Spread frame;
+  std::vector<std::pair<std::string, demo::Spread>> stages;   ///< groups of systems, see stage_group
+  std::vector<std::pair<std::string, demo::Spread>> systems;  ///< one by one
+  std::optional<double> pn_smoothing;           ///< median us of the smoothing stages with PN alone, where we do more
+  std::optional<double> allocations_per_frame;  ///< after warm-up; absent for runs that are all warm-up
+  Quality quality;
+};
+
+/// The paper's three parts, as stages.
+inline constexpr std::array<std::string_view, 3> kIntegrationStages = {"forces", "integration", "stretch"};
+inline constexpr std::array<std::string_view, 1> kCollisionStages = {"collision"};
+inline constexpr std::array<std::string_view, 4> kSmoothingStages = {"normals", "edge_length", "tessellation",
+                                                                     "drawn_normals"};
+
+/// Sum of the medians of these stages, us.
+double stage_sum(const std::vector<std::pair<std::string, demo::Spread>>& stages,
+                 std::span<const std::string_view> names);
+
+/// The stage that a system of the schedule is counted under; one that stands for itself keeps its name.
+std::string stage_group(const std::string& system);
+
+/// Runs the scene `repeat` times for the frame, again for the stages (asking the clock costs time), and once for
+/// quality.
+Budget measure_budget(const pleat_api& api, const demo::SceneDef& def, uint32_t repeat);
+
+}  // namespace pleat::bench

@@ -1,0 +1,87 @@
+#include "bench/budget_report.h"
+
+#include <cstdio>
+
+#include "bench/machine.h"
+#include "bench/scene_quality.h"
+
+namespace pleat::bench {
+namespace {
+
+using demo::Spread;
+
+nlohmann::ordered_json to_json(const Spread& spread) {
+  return {{"median", spread.median}, {"min", spread.min}, {"p99", spread.p99}};
+}
+
+nlohmann::ordered_json to_json(const std::vector<std::pair<std::string, Spread>>& spreads) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, spread] : spreads) json[name] = to_json(spread);
+  return json;
+}
+
+void print_row(const char* name, const Spread& spread) {
+  std::printf("%-28s %10.1f %10.1f %10.1f\n", name, spread.median, spread.min, spread.p99);
+}
+
+/// The paper: 66 particles, 108 triangles, 1944 drawn, Pentium III at 800 MHz, ms a frame.
+void print_beside_paper(const Budget& budget) {
+  const struct {
+    const char* part;
+    double paper_ms, ours_us;
+  } rows[] = {{"integration", 3.5, stage_sum(budget.stages, kIntegrationStages)},
+              {"collision", 14.7, stage_sum(budget.stages, kCollisionStages)},
+              {"smoothing", 6.4, stage_sum(budget.stages, kSmoothingStages)}};
+  std::printf("\n%-28s %10s %10s\n", "beside the paper (2001)", "paper ms", "ours ms");
+  for (const auto& [part, paper_ms, ours_us] : rows)
+    std::printf("  %-26s %10.1f %10.4f\n", part, paper_ms, 0.001 * ours_us);
+  if (!budget.pn_smoothing) return;
+  std::printf("  %-26s %10.1f %10.4f\n", "smoothing, PN alone", 4.0, 0.001 * *budget.pn_smoothing);
+  std::printf("  %-26s %10.1f %10.2f\n", "full / PN alone", 1.6, rows[2].ours_us / *budget.pn_smoothing);
+}
+
+void print_quality(const Quality& quality) {
+  const nlohmann::ordered_json json = to_json(quality);
+  std::printf("\n");
+  for (const auto& [name, value] : json.items()) std::printf("%-28s %10.4f\n", name.c_str(), value.get<double>());
+}
+
+}  // namespace
+
+void print_budget(const demo::SceneDef& def, const Budget& budget) {
+  std::printf("%s at %g Hz, %u frames, %u runs; %u particles, %u triangles, %u drawn; %u substeps", def.name.c_str(),
+              def.rate, def.frames, budget.repeat, budget.cloth.particles, budget.cloth.triangles,
+              budget.cloth.drawn_triangles, budget.cloth.substeps);
+  std::printf(budget.cloths > 1 ? "; %zu copies\n" : "\n", budget.cloths);
+  std::printf("%-28s %10s %10s %10s\n", "us a frame", "median", "min", "p99");
+  print_row("frame", budget.frame);
+  for (const auto& [name, spread] : budget.stages) print_row(("  " + name).c_str(), spread);
+  if (budget.allocations_per_frame) std::printf("%-28s %10.3f\n", "allocations a frame", *budget.allocations_per_frame);
+  print_beside_paper(budget);
+  print_quality(budget.quality);
+}
+
+nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& def, const Budget& budget) {
+  nlohmann::ordered_json json = {{"scene", def.name},
+                                 {"rate_hz", def.rate},
+                                 {"frames", def.frames},
+                                 {"repeat", budget.repeat},
+                                 {"cloths", budget.cloths},
+                                 {"particles", budget.cloth.particles},
+                                 {"triangles", budget.cloth.triangles},
+                                 {"drawn_vertices", budget.cloth.drawn_vertices},
+                                 {"drawn_triangles", budget.cloth.drawn_triangles},
+                                 {"substeps", budget.cloth.substeps},
+                                 {"stages_us", to_json(budget.stages)},
+                                 {"systems_us", to_json(budget.systems)},
+                                 {"frame_us", to_json(budget.frame)}};
+  if (budget.pn_smoothing) json["smoothing_pn_only_us"] = *budget.pn_smoothing;
+  json["per_particle_us"] = budget.frame.median / double(budget.cloth.particles * budget.cloths);
+  if (budget.allocations_per_frame) json["allocations_per_frame"] = *budget.allocations_per_frame;
+  json["bytes_per_cloth"] = budget.cloth.bytes;
+  json["quality"] = to_json(budget.quality);
+  json["machine"] = describe_machine(api);
+  return json;
+}
+
+}  // namespace pleat::bench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pleat::bench {
+
+using Eigen::Vector3d;
+
+/// All points within `radius` of the segment ab; a = b is a sphere. Metres, world space.
+struct Capsule {
+  Vector3d a, b;
+  double radius;
+};
+
+struct Triangle {
+  Vector3d a, b, c;
+};
+
+/// The point of the segment ab that is nearest to p.
+Vector3d nearest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b);
+
+/// The point of a triangle (corners, edges and interior) that is nearest to p.
+Vector3d nearest_on_triangle(const Vector3d& p, const Triangle& triangle);
+
+/// Distance from p to the capsule's surface, m; negative inside.
+double signed_distance(const Vector3d& p, const Capsule& capsule);
+
+/// The least signed distance of any point of the triangle to the capsule, m; exact. A triangle that the capsule's core
+/// pierces is at -radius.
+double signed_distance(const Triangle& triangle, const Capsule& capsule);
+
+}  // namespace pleat::bench

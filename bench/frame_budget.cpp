@@ -1,0 +1,67 @@
+// The program `frame_budget`: what a frame of a scene costs, stage by stage, and how good the cloth is for it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bench/budget.h"
+#include "bench/budget_report.h"
+#include "demo/input_error.h"
+#include "demo/program/output.h"
+#include "demo/program/progress.h"
+#include "demo/scenes/scene_reader.h"
+#include "engine/pleat.h"
+
+namespace {
+
+constexpr int kBadInput = 2, kOwnFailure = 1;
+
+int run_program(int argc, char** argv) {
+  CLI::App app("What a frame of a scene costs, and how good the cloth is for it.", "frame_budget");
+  pleat::demo::SceneRequest request;
+  request.scene = "skirt_kick";
+  uint32_t repeat = 5;
+  int threads = 1;
+  std::filesystem::path json_path;
+  app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
+  app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
+  app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
+  app.add_option("--repeat", repeat, "runs; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option_function<std::string>(
+      "--surface", [&](const std::string& mode) { request.settings.push_back("surface=" + mode); },
+      "flat, pn, paper or pleat (default)");
+  app.add_option("--threads", threads, "the library uses one")->check(CLI::Range(1, 1))->capture_default_str();
+  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+
+  const pleat_api* api = pleat_get_api(PLEAT_API_MAJOR);
+  if (!api) throw std::runtime_error("libpleat does not speak version " + std::to_string(PLEAT_API_MAJOR));
+  const pleat::demo::SceneDef def = pleat::demo::load_scene(*api, request);
+  std::optional<pleat::demo::OutputFile> json;
+  if (!json_path.empty()) json.emplace(json_path);
+  const pleat::bench::Budget budget = pleat::bench::measure_budget(*api, def, repeat);
+  if (json) json->commit(pleat::bench::budget_json(*api, def, budget).dump(2) + "\n");
+  pleat::bench::print_budget(def, budget);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    pleat::demo::catch_interrupt();
+    return run_program(argc, argv);
+  } catch (const pleat::demo::InputError& error) {
+    std::fprintf(stderr, "frame_budget: %s\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "frame_budget: %s\n", error.what());
+    return kOwnFailure;
+  }
+}

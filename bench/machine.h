@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "engine/pleat.h"
+
+namespace pleat::bench {
+
+/// What a figure was measured on: processor, compiler, flags, commit, and the library's features.
+nlohmann::ordered_json describe_machine(const pleat_api& api);
+
+}  // namespace pleat::bench

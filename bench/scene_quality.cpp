@@ -1,0 +1,90 @@
+#include "bench/scene_quality.h"
+
+#include <cmath>
+
+namespace pleat::bench {
+namespace {
+
+constexpr double kHold = 5.0, kWatch = 1.0;  // s
+
+Capsule exact(const demo::CapsulePose& capsule, const Eigen::Vector3d& origin) {
+  return {capsule.a.cast<double>() + origin, capsule.b.cast<double>() + origin, capsule.radius};
+}
+
+}  // namespace
+
+SceneQuality::SceneQuality(const demo::Scene& scene) {
+  const pleat_api& api = scene.api();
+  pleat_garment_info info;
+  scene.check(api.garment_info(scene.world(), scene.garment(), &info), "garment");
+  mesh_.edges.resize(2 * size_t(info.edges));
+  mesh_.rest_lengths.resize(info.edges);
+  mesh_.triangles.resize(3 * size_t(info.triangles));
+  scene.check(
+      api.garment_read_edges(scene.world(), scene.garment(), mesh_.edges.data(), mesh_.rest_lengths.data(), info.edges),
+      "edges");
+  scene.check(api.garment_read_triangles(scene.world(), scene.garment(), mesh_.triangles.data(),
+                                         uint32_t(mesh_.triangles.size())),
+              "triangles");
+  mesh_.pinned.resize(info.particles);
+  for (const uint32_t pin : scene.def().pins) mesh_.pinned[pin] = true;
+  for (const demo::FixedBody& body : scene.def().fixed) {
+    if (const auto* capsule = std::get_if<demo::CapsulePose>(&body.shape)) {
+      fixed_.capsules.push_back(exact(*capsule, Eigen::Vector3d::Zero()));
+    } else {
+      const auto& shape = std::get<demo::TriangleMesh>(body.shape);
+      fixed_.meshes.push_back(std::make_shared<SolidMesh>(shape.positions, shape.triangles));
+    }
+  }
+}
+
+Bodies SceneQuality::bodies_of(const demo::Scene& scene, size_t copy) const {
+  Bodies bodies = fixed_;
+  for (const demo::CapsulePose& capsule : scene.body().capsules) {
+    bodies.capsules.push_back(exact(capsule, scene.def().origins[copy]));
+  }
+  return bodies;
+}
+
+void SceneQuality::add_frame(const demo::Scene& scene, std::span<const demo::DrawnSurface> surfaces) {
+  meter_.begin_frame();
+  for (size_t k = 0; k < scene.cloths().size(); ++k) {
+    scene.read_particles(k, particles_);
+    const std::vector<float> drawn = surfaces[k].positions();
+    meter_.add_cloth(mesh_, {particles_, drawn, surfaces[k].indices}, bodies_of(scene, k));
+  }
+}
+
+void SceneQuality::measure_rest(demo::Scene& scene) {
+  if (!scene.def().motion) return;
+  const long hold = std::lround(kHold * scene.def().rate), watch = std::lround(kWatch * scene.def().rate);
+  for (long frame = 0; frame < hold; ++frame) scene.hold();
+  std::vector<std::vector<float>> before(scene.cloths().size());
+  for (size_t k = 0; k < before.size(); ++k) scene.read_particles(k, before[k]);
+  for (long frame = 0; frame < watch; ++frame) {
+    scene.hold();
+    for (size_t k = 0; k < before.size(); ++k) {
+      scene.read_particles(k, particles_);
+      meter_.add_rest_motion(mesh_, before[k], particles_);
+      before[k].swap(particles_);
+    }
+  }
+}
+
+nlohmann::ordered_json to_json(const Quality& quality) {
+  nlohmann::ordered_json json;
+  json["strain_max_percent"] = quality.strain_max_percent;
+  json["strain_p99_percent"] = quality.strain_p99_percent;
+  json["strain_rms_percent"] = quality.strain_rms_percent;
+  json["stretch_rms_percent"] = quality.stretch_rms_percent;
+  const auto put = [&json](const char* key, const std::optional<double>& value) {
+    if (value) json[key] = *value;
+  };
+  put("penetration_particle_mm", quality.penetration_particle_mm);
+  put("penetration_interior_mm", quality.penetration_interior_mm);
+  put("penetration_drawn_mm", quality.penetration_drawn_mm);
+  put("rest_jitter_mm", quality.rest_jitter_mm);
+  return json;
+}
+
+}  // namespace pleat::bench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "bench/quality.h"
+#include "demo/scenes/drawn_surface.h"
+#include "demo/scenes/scene.h"
+
+namespace pleat::bench {
+
+/// The quality of a running scene. Every cloth is held against the bodies of its own copy, and the fixed ones.
+class SceneQuality {
+ public:
+  explicit SceneQuality(const demo::Scene& scene);
+
+  /// Looks at the frame that was just stepped; `surfaces` are its drawn cloths.
+  void add_frame(const demo::Scene& scene, std::span<const demo::DrawnSurface> surfaces);
+  /// Holds the pose for 5 s and then watches the particles for another second. Nothing where no body moves.
+  void measure_rest(demo::Scene& scene);
+  Quality result() const { return meter_.result(); }
+
+ private:
+  Bodies bodies_of(const demo::Scene& scene, size_t copy) const;
+
+  ClothMesh mesh_;
+  Bodies fixed_;
+  QualityMeter meter_;
+  std::vector<float> particles_;  // scratch
+};
+
+/// As frame_budget and `pleat run` write it; what was not measured is left out.
+nlohmann::ordered_json to_json(const Quality& quality);
+
+}  // namespace pleat::bench

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace pleat::demo {
+
+/// 8-bit sRGB with alpha, rows from the top, no padding.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;  // 4 * width * height
+
+  std::uint8_t* pixel(int x, int y) { return rgba.data() + 4 * offset(x, y); }
+  const std::uint8_t* pixel(int x, int y) const { return rgba.data() + 4 * offset(x, y); }
+
+ private:
+  std::size_t offset(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+};
+
+/// An image of one colour, 0xRRGGBBAA. Errors: std::invalid_argument unless both sizes are in 1..16384.
+Image make_image(int width, int height, std::uint32_t rgba);
+
+/// Writes a whole PNG or nothing: the file appears under its name only when complete, an older one stays until then.
+/// Errors: std::runtime_error that names the path and the reason.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace pleat::demo

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <vector>
+
+#include "demo/motion/clip.h"
+#include "demo/motion/figure.h"
+
+namespace pleat::demo {
+
+/// Where a body is at one moment.
+struct BodyPose {
+  Eigen::Isometry3d hips = Eigen::Isometry3d::Identity();  ///< from the hips frame to the world; pins follow it
+  std::vector<CapsulePose> capsules;                       ///< always as many, in the same order
+};
+
+/// A body's pose as a function of time in seconds, from 0 on.
+using BodyMotion = std::function<BodyPose(double seconds)>;
+
+/// The analytic kick of workload W1, one kick a second: pelvis and two legs, seven capsules. At the height of the kick
+/// the thigh stands `thigh` degrees forward of vertical and the shin `knee` degrees behind the thigh. The hips frame
+/// at 0 s is the world's.
+BodyMotion make_kick(double thigh, double knee);
+
+/// A recorded clip on a figure fitted to it. Before its first and after its last frame the body holds still.
+BodyMotion make_clip_motion(Clip clip, Figure figure);
+
+}  // namespace pleat::demo

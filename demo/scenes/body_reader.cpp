@@ -1,0 +1,74 @@
+#include "demo/scenes/body_reader.h"
+
+#include "demo/input_error.h"
+#include "demo/motion/bvh.h"
+#include "demo/scenes/icosphere.h"
+
+namespace pleat::demo {
+namespace {
+
+Eigen::Vector3f read_point(const JsonValue& value) { return value.vector().cast<float>(); }
+
+double read_radius(const JsonValue& shape) { return shape.at("radius").number(1e-4, 1e3); }
+
+void drop_frames(Clip& clip, const JsonValue& first) {
+  const size_t dropped = first.integer(0, uint32_t(clip.frame_count()) - 1);
+  clip.frames.erase(clip.frames.begin(), clip.frames.begin() + ptrdiff_t(dropped * clip.skeleton.channel_count));
+}
+
+MotionDef read_clip(const JsonValue& value, const SceneFile& file, const std::string& other_clip) {
+  value.allow_keys({"file", "first_frame", "settle"});
+  MotionDef def;
+  def.settle = value.find("settle") ? value.at("settle").number(0.0, 60.0) : 1.0;
+  Clip clip;
+  if (other_clip.empty()) {
+    const std::string name = value.at("file").text();
+    clip = read_bvh(*file.open(name), file.path_of(name));
+    if (const auto first = value.find("first_frame")) drop_frames(clip, *first);
+  } else {
+    clip = load_bvh(other_clip);
+  }
+  def.figure = fit_figure(clip);
+  def.ground = ground_height(*def.figure, clip);
+  def.duration = clip.duration();
+  def.motion = make_clip_motion(std::move(clip), *def.figure);
+  return def;
+}
+
+}  // namespace
+
+FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
+  body.allow_keys({"sphere", "capsule", "icosphere", "obj", "friction"});
+  const std::string kind = body.one_of({"sphere", "capsule", "icosphere", "obj"});
+  const JsonValue shape = body.at(kind);
+  FixedBody fixed;
+  if (const auto friction = body.find("friction")) fixed.friction = float(friction->number(0.0, 100.0));
+  if (kind == "sphere") {
+    shape.allow_keys({"center", "radius"});
+    const Eigen::Vector3f center = read_point(shape.at("center"));
+    fixed.shape = CapsulePose{center, center, float(read_radius(shape))};
+  } else if (kind == "capsule") {
+    shape.allow_keys({"a", "b", "radius"});
+    fixed.shape = CapsulePose{read_point(shape.at("a")), read_point(shape.at("b")), float(read_radius(shape))};
+  } else if (kind == "icosphere") {
+    shape.allow_keys({"level", "center", "radius"});
+    fixed.shape = make_icosphere(shape.at("level").integer(0, 6), shape.at("center").vector(), read_radius(shape));
+  } else {
+    fixed.shape = read_mesh_file(shape, file);
+  }
+  return fixed;
+}
+
+MotionDef read_motion(const JsonValue& motion, const SceneFile& file, const std::string& other_clip) {
+  motion.allow_keys({"kick", "clip"});
+  const std::string kind = motion.one_of({"kick", "clip"});
+  const JsonValue value = motion.at(kind);
+  if (kind == "clip") return read_clip(value, file, other_clip);
+  if (!other_clip.empty()) throw InputError(file.name(), "this scene plays no clip that --clip could replace");
+  value.allow_keys({"thigh", "knee"});
+  MotionDef def;
+  def.motion = make_kick(value.at("thigh").number(-180.0, 180.0), value.at("knee").number(-180.0, 180.0));
+  return def;
+}
+
+}  // namespace pleat::demo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "demo/scenes/garment_reader.h"
+#include "demo/scenes/json_value.h"
+#include "demo/scenes/scene_def.h"
+#include "demo/scenes/scene_files.h"
+
+namespace pleat::demo {
+
+/// Reads one of a scene's `colliders`. Throws InputError.
+FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file);
+
+/// A scene's `motion`, and what a recorded clip tells about the rest of the scene.
+struct MotionDef {
+  BodyMotion motion;
+  double settle = 0.0;             ///< s that the first pose is held before frame 0
+  std::optional<Figure> figure;    ///< of a clip
+  std::optional<double> duration;  ///< of a clip, s
+  std::optional<double> ground;    ///< y, m
+};
+
+/// Reads a scene's `motion`; a path in `other_clip` takes the place of the scene's BVH file. Throws InputError.
+MotionDef read_motion(const JsonValue& motion, const SceneFile& file, const std::string& other_clip);
+
+}  // namespace pleat::demo

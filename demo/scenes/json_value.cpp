@@ -1,0 +1,118 @@
+#include "demo/scenes/json_value.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "demo/input_error.h"
+
+namespace pleat::demo {
+namespace {
+
+std::string short_number(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::vector<std::string> words(std::initializer_list<std::string_view> list) { return {list.begin(), list.end()}; }
+
+}  // namespace
+
+std::string join(const std::vector<std::string>& list) {
+  std::string joined;
+  for (const std::string& word : list) joined += (joined.empty() ? "" : ", ") + word;
+  return joined;
+}
+
+nlohmann::json parse_json(const std::string& text, const std::string& name) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const size_t end = std::min(text.size(), error.byte);
+    const auto line = 1 + std::count(text.begin(), text.begin() + ptrdiff_t(end), '\n');
+    throw InputError(name, size_t(line), "is not JSON here" + std::string(end >= text.size() ? " (cut short?)" : ""));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(name, std::string("is not JSON: ") + error.what());
+  }
+}
+
+void JsonValue::fail(const std::string& message) const {
+  throw InputError(*file_, (pointer_.empty() ? "" : pointer_ + ": ") + message);
+}
+
+void JsonValue::allow_keys(std::initializer_list<std::string_view> known) const {
+  for (const std::string& key : keys()) {
+    if (std::ranges::find(known, key) == known.end()) {
+      fail("unknown key `" + key + "`; known are " + join(words(known)));
+    }
+  }
+}
+
+std::vector<std::string> JsonValue::keys() const {
+  if (!value_->is_object()) fail(std::string("should be an object, is a ") + value_->type_name());
+  std::vector<std::string> found;
+  for (const auto& [key, unused] : value_->items()) found.push_back(key);
+  return found;
+}
+
+std::optional<JsonValue> JsonValue::find(std::string_view key) const {
+  if (!value_->is_object()) fail(std::string("should be an object, is a ") + value_->type_name());
+  const auto found = value_->find(std::string(key));
+  if (found == value_->end()) return std::nullopt;
+  return JsonValue(*found, *file_, pointer_ + "/" + std::string(key));
+}
+
+JsonValue JsonValue::at(std::string_view key) const {
+  const std::optional<JsonValue> found = find(key);
+  if (!found) fail("`" + std::string(key) + "` is missing");
+  return *found;
+}
+
+std::string JsonValue::one_of(std::initializer_list<std::string_view> known) const {
+  std::string chosen;
+  for (const std::string& key : keys()) {
+    if (std::ranges::find(known, key) == known.end()) continue;
+    if (!chosen.empty()) fail("has both `" + chosen + "` and `" + key + "`, should have one");
+    chosen = key;
+  }
+  if (chosen.empty()) fail("should have one of " + join(words(known)));
+  return chosen;
+}
+
+std::vector<JsonValue> JsonValue::items() const {
+  if (!value_->is_array()) fail(std::string("should be an array, is a ") + value_->type_name());
+  std::vector<JsonValue> found;
+  for (size_t i = 0; i < value_->size(); ++i) {
+    found.push_back(JsonValue((*value_)[i], *file_, pointer_ + "/" + std::to_string(i)));
+  }
+  return found;
+}
+
+double JsonValue::number(double least, double most) const {
+  if (!value_->is_number()) fail(std::string("should be a number, is a ") + value_->type_name());
+  const double value = value_->get<double>();
+  if (!(value >= least && value <= most)) {
+    fail("is " + value_->dump() + ", should lie in " + short_number(least) + " .. " + short_number(most));
+  }
+  return value;
+}
+
+uint32_t JsonValue::integer(uint32_t least, uint32_t most) const {
+  if (!value_->is_number_integer()) {
+    fail("should be a whole number, is " + (value_->is_number() ? value_->dump() : value_->type_name()));
+  }
+  return uint32_t(number(least, most));
+}
+
+std::string JsonValue::text() const {
+  if (!value_->is_string()) fail(std::string("should be a text, is a ") + value_->type_name());
+  return value_->get<std::string>();
+}
+
+Eigen::Vector3d JsonValue::vector(double least, double most) const {
+  const std::vector<JsonValue> parts = items();
+  if (parts.size() != 3) fail("should be three numbers, has " + std::to_string(parts.size()));
+  return {parts[0].number(least, most), parts[1].number(least, most), parts[2].number(least, most)};
+}
+
+}  // namespace pleat::demo

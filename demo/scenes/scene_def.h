@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "demo/scenes/body_motion.h"
+#include "demo/scenes/triangle_mesh.h"
+#include "engine/pleat.h"
+
+namespace pleat::demo {
+
+/// A body that never moves. World space.
+struct FixedBody {
+  std::variant<CapsulePose, TriangleMesh> shape;
+  float friction = 1.0f;  ///< multiplied by the cloth's
+};
+
+/// Everything a scene is made of, read and checked: what a Scene is started from. Metres, seconds, world space.
+struct SceneDef {
+  std::string name;       ///< as the user asked for it: `drape_sphere:32`
+  double rate = 60.0;     ///< frames a second
+  uint32_t frames = 300;  ///< a run's length
+  double settle = 0.0;    ///< s that the first pose is held before frame 0
+  Eigen::Vector3d gravity{0.0, -9.81, 0.0};
+  Eigen::Vector3d wind{0.0, 0.0, 0.0};
+  TriangleMesh garment;        ///< at rest, where it starts
+  std::vector<uint32_t> pins;  ///< vertices that follow the body's hips
+  pleat_cloth_settings settings{};
+  std::vector<FixedBody> fixed;
+  BodyMotion motion;                                              ///< empty: nothing moves
+  std::vector<Eigen::Vector3d> origins{Eigen::Vector3d::Zero()};  ///< a copy of garment, body and motion at each
+  std::optional<double> ground;                                   ///< y of a floor to draw
+  Eigen::Vector3d view{0.55, 0.25, 1.0};                          ///< towards the camera, any length
+};
+
+}  // namespace pleat::demo

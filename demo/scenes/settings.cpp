@@ -1,0 +1,87 @@
+#include "demo/scenes/settings.h"
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace pleat::demo {
+namespace {
+
+using S = pleat_cloth_settings;
+
+constexpr SettingWord kIntegratorWords[] = {{"symplectic-euler", PLEAT_INTEGRATOR_SYMPLECTIC_EULER},
+                                            {"explicit-euler", PLEAT_INTEGRATOR_EXPLICIT_EULER},
+                                            {"runge-kutta-4", PLEAT_INTEGRATOR_RUNGE_KUTTA_4}};
+constexpr SettingWord kSurfaceWords[] = {{"flat", PLEAT_SURFACE_FLAT},
+                                         {"pn", PLEAT_SURFACE_PN},
+                                         {"paper", PLEAT_SURFACE_PAPER},
+                                         {"pleat", PLEAT_SURFACE_PLEAT}};
+constexpr SettingWord kFaceResponseWords[] = {{"weighted", PLEAT_FACE_RESPONSE_WEIGHTED},
+                                              {"whole", PLEAT_FACE_RESPONSE_WHOLE}};
+constexpr SettingWord kLevelWords[] = {
+    {"fan", PLEAT_LEVEL_FAN}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"5", 5}, {"6", 6}, {"7", 7}, {"8", 8}};
+
+constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
+                              {"substeps", &S::substeps},
+                              {"sweeps", &S::sweeps},
+                              {"density", &S::density},
+                              {"stiffness", &S::stiffness},
+                              {"stretch_limit", &S::stretch_limit},
+                              {"bend_stiffness", &S::bend_stiffness},
+                              {"edge_damping", &S::edge_damping},
+                              {"bend_damping", &S::bend_damping},
+                              {"air_damping", &S::air_damping},
+                              {"drag_coefficient", &S::drag_coefficient},
+                              {"thickness", &S::thickness},
+                              {"friction", &S::friction},
+                              {"face_response", &S::face_response, kFaceResponseWords},
+                              {"surface", &S::surface, kSurfaceWords},
+                              {"level", &S::level, kLevelWords}};
+
+template <typename Named>
+std::string names_of(std::span<const Named> list) {
+  std::string joined;
+  for (const Named& named : list) joined += (joined.empty() ? "" : ", ") + std::string(named.name);
+  return joined;
+}
+
+template <typename Number>
+Number parse(std::string_view name, std::string_view text, const char* kind) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(double(value))) {
+    throw std::invalid_argument("`" + std::string(name) + "` should be " + kind + ", is `" + std::string(text) + "`");
+  }
+  return value;
+}
+
+uint32_t value_of_word(const Setting& setting, std::string_view text) {
+  for (const SettingWord& word : setting.words) {
+    if (word.name == text) return word.value;
+  }
+  throw std::invalid_argument("`" + std::string(setting.name) + "` cannot be `" + std::string(text) + "`; known are " +
+                              names_of(setting.words));
+}
+
+}  // namespace
+
+const std::span<const Setting> kSettings = kTable;
+const std::span<const SettingWord> kIntegrators = kIntegratorWords;
+const std::span<const SettingWord> kSurfaces = kSurfaceWords;
+const std::span<const SettingWord> kLevels = kLevelWords;
+
+void set_setting(pleat_cloth_settings& settings, std::string_view name, std::string_view text) {
+  for (const Setting& setting : kTable) {
+    if (setting.name != name) continue;
+    if (const auto* real = std::get_if<float S::*>(&setting.field)) {
+      settings.*(*real) = parse<float>(name, text, "a number");
+    } else {
+      settings.*std::get<uint32_t S::*>(setting.field) =
+          setting.words.empty() ? parse<uint32_t>(name, text, "a whole number") : value_of_word(setting, text);
+    }
+    return;
+  }
+  throw std::invalid_argument("unknown setting `" + std::string(name) + "`; known are " + names_of(kSettings));
+}
+
+}  // namespace pleat::demo

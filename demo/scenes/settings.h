@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "engine/pleat.h"
+
+namespace pleat::demo {
+
+/// A word for a value of an enumeration.
+struct SettingWord {
+  std::string_view name;
+  uint32_t value;
+};
+
+/// A field of pleat_cloth_settings by its name.
+struct Setting {
+  std::string_view name;
+  std::variant<float pleat_cloth_settings::*, uint32_t pleat_cloth_settings::*> field;
+  std::span<const SettingWord> words = {};  ///< the only values, where there are any
+};
+
+extern const std::span<const Setting> kSettings;
+extern const std::span<const SettingWord> kIntegrators;
+extern const std::span<const SettingWord> kSurfaces;
+extern const std::span<const SettingWord> kLevels;
+
+/// Sets one field from text, as in `--set stiffness=60` or `"surface": "paper"`. Ranges are the engine's business.
+/// Throws std::invalid_argument with a line that names what is known.
+void set_setting(pleat_cloth_settings& settings, std::string_view name, std::string_view text);
+
+}  // namespace pleat::demo

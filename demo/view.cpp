@@ -1,0 +1,92 @@
+#include "demo/view.h"
+
+#include <array>
+
+namespace pleat::demo {
+namespace {
+
+constexpr float kFieldOfView = 0.55f;  // rad
+constexpr double kMargin = 0.12;       // of the cloth's size, all around
+constexpr std::uint32_t kInk = 0x2b2b33ff;
+constexpr std::uint32_t kBody = 0xc9c3baff;
+
+Mesh mesh_of_surface(const DrawnSurface& surface) {
+  Mesh mesh;
+  mesh.vertices.reserve(6 * surface.vertices.size());
+  for (const DrawnSurface::Vertex& vertex : surface.vertices) {
+    mesh.vertices.insert(mesh.vertices.end(), vertex.position, vertex.position + 3);
+    mesh.vertices.insert(mesh.vertices.end(), vertex.normal, vertex.normal + 3);
+  }
+  mesh.indices = surface.indices;
+  return mesh;
+}
+
+/// Shaded by its own triangles' normals.
+Mesh flat_mesh(std::span<const float> positions, std::span<const uint32_t> triangles) {
+  Mesh mesh;
+  for (size_t v = 0; 3 * v < positions.size(); ++v) {
+    mesh.vertices.insert(mesh.vertices.end(), {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 0, 1, 0});
+  }
+  mesh.indices.assign(triangles.begin(), triangles.end());
+  mesh.flat = true;
+  return mesh;
+}
+
+Capsule capsule_at(const CapsulePose& pose, const Eigen::Vector3f& origin) {
+  return {pose.a + origin, pose.b + origin, pose.radius, kBody};
+}
+
+}  // namespace
+
+View::View(const Scene& scene, const RunRecord& record, float aspect) {
+  const Eigen::Vector3d margin = kMargin * record.seen.sizes().cwiseMax(Eigen::Vector3d::Constant(0.1));
+  const Eigen::AlignedBox3f box((record.seen.min() - margin).cast<float>(), (record.seen.max() + margin).cast<float>());
+  camera_ = frame_box(box, scene.def().view.cast<float>(), kFieldOfView, aspect);
+  for (const FixedBody& body : scene.def().fixed) {
+    if (const auto* shape = std::get_if<TriangleMesh>(&body.shape)) {
+      Mesh mesh = flat_mesh(shape->positions, shape->triangles);
+      mesh.front = mesh.back = kBody;
+      fixed_.push_back(std::move(mesh));
+    }
+  }
+  for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces_.push_back(make_surface(scene, k));
+}
+
+Frame View::bodies(const Scene& scene) const {
+  Frame frame;
+  const Eigen::Vector3f shift = followed(scene.def(), scene.frame()).cast<float>();
+  frame.camera = camera_;
+  frame.camera.eye += shift;
+  frame.camera.target += shift;
+  if (scene.def().ground) frame.ground = float(*scene.def().ground);
+  frame.meshes = fixed_;
+  for (const FixedBody& body : scene.def().fixed) {
+    const auto* capsule = std::get_if<CapsulePose>(&body.shape);
+    if (capsule) frame.capsules.push_back(capsule_at(*capsule, Eigen::Vector3f::Zero()));
+  }
+  for (const Eigen::Vector3d& origin : scene.def().origins) {
+    for (const CapsulePose& capsule : scene.body().capsules) {
+      frame.capsules.push_back(capsule_at(capsule, origin.cast<float>()));
+    }
+  }
+  return frame;
+}
+
+Frame View::frame(const Scene& scene) {
+  Frame frame = bodies(scene);
+  for (size_t k = 0; k < surfaces_.size(); ++k) {
+    read_vertices(scene, k, surfaces_[k]);
+    frame.meshes.push_back(mesh_of_surface(surfaces_[k]));
+  }
+  return frame;
+}
+
+Mesh View::coarse_cloth(const Scene& scene) const {
+  std::vector<float> particles;
+  scene.read_particles(0, particles);
+  Mesh mesh = flat_mesh(particles, scene.def().garment.triangles);
+  mesh.wire = kInk;
+  return mesh;
+}
+
+}  // namespace pleat::demo

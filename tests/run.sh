@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and passes the tests.
+source "$(dirname -- "${BASH_SOURCE[0]}")/../demo/setup.sh"
+
+if [[ ${1-} == --help || ${1-} == -h ]]; then
+  cat <<HELP
+Usage: tests/run.sh [ARGUMENT...]
+
+Sets up Debian 12 or Ubuntu 24.04 and later (packages through apt-get, as root or with sudo), builds the preset
+\`release\`, and runs \`ctest --preset release ARGUMENT...\`. Examples:
+
+  tests/run.sh -L property
+  tests/run.sh -R Tessellation --verbose
+HELP
+  exit
+fi
+
+build
+run ctest --preset release --parallel "$(nproc)" "$@"

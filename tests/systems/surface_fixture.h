@@ -1,0 +1,86 @@
+// A cloth with its curved surface, run stage by stage as the engine does.
+#pragma once
+
+#include <memory_resource>
+#include <random>
+#include <vector>
+
+#include "components/garment.h"
+#include "components/shapes.h"
+#include "systems/drawn_normals.h"
+#include "systems/edge_length.h"
+#include "systems/particle_normals.h"
+#include "systems/tessellation.h"
+
+namespace pleat {
+
+inline Garment garment_of(const Mesh& mesh) {
+  return build_garment({.positions = mesh.positions, .triangles = mesh.triangles, .uvs = {}, .pins = {}, .seams = {}},
+                       std::pmr::get_default_resource());
+}
+
+/// The skirt of the paper's size: 66 particles, 108 triangles.
+inline Mesh skirt() {
+  std::vector<Ring> rings;
+  const std::uint32_t size[] = {8, 12, 14, 16, 16};
+  for (std::uint32_t r = 0; r < 5; ++r) {
+    const float row = static_cast<float>(r);
+    rings.push_back({size[r], 0.14f + 0.0525f * row, 1.05f - 0.125f * row});
+  }
+  return make_rings(rings);
+}
+
+inline Mesh sheet(std::uint32_t n) { return make_grid({.rows = n, .columns = n, .alternate = true}); }
+
+struct Surface {
+  Garment garment;
+  TessellationPattern pattern;
+  Vec3Column position, normal, fold, drawn, drawn_normal;
+  Column<float> fold_height;
+  SurfaceMode mode = SurfaceMode::kPleat;
+
+  explicit Surface(const Mesh& mesh, std::uint32_t level = 0,
+                   std::pmr::memory_resource* m = std::pmr::get_default_resource())
+      : garment(garment_of(mesh)),
+        pattern(build_tessellation(garment, level, m)),
+        position(m),
+        normal(m),
+        fold(m),
+        drawn(m),
+        drawn_normal(m),
+        fold_height(m) {
+    position.resize(garment.particle_count);
+    normal.resize(garment.particle_count);
+    fold.resize(garment.edge_count);
+    fold_height.resize(garment.edge_count);
+    drawn.resize(pattern.vertex_count);
+    drawn_normal.resize(pattern.vertex_count);
+    for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
+  }
+
+  template <class F>
+  void move(F f) {
+    for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, f(position.view()[i]));
+  }
+  void jitter(float size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> d(-size, size);
+    move([&](const Vec3& x) { return x + Vec3{d(random), d(random), d(random)}; });
+  }
+
+  ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view()}; }
+  EdgeLength edge_length() { return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data()}; }
+  Tessellation tessellation() {
+    return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
+  }
+  DrawnNormals drawn_normals() { return {&pattern, drawn.view(), drawn_normal.view()}; }
+
+  void run() {
+    particle_normals().run();
+    if (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) edge_length().run();
+    tessellation().run();
+    drawn_normals().run();
+  }
+};
+
+}  // namespace pleat
