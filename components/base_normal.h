@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "components/garment.h"
+#include "components/column.h"
 
 namespace pleat {
 

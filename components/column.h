@@ -43,20 +43,22 @@ class Column {
   }
   ~Column() { release(); }
 
+  /// Makes room, so that resizing up to `size` cannot fail.
+  void reserve(std::size_t size) {
+    const std::size_t wanted = padded(size);
+    if (wanted <= capacity_) return;
+    const std::size_t capacity = std::max(wanted, padded(capacity_ + capacity_ / 2));
+    T* grown = static_cast<T*>(memory_->allocate(capacity * sizeof(T), kColumnAlignment));
+    std::copy(data_, data_ + size_, grown);
+    std::fill(grown + size_, grown + capacity, fill_);
+    release();
+    data_ = grown;
+    capacity_ = capacity;
+  }
   /// Keeps the elements below min(old, new) size; new ones get the fill value. Capacity never shrinks.
   void resize(std::size_t size) {
-    const std::size_t wanted = padded(size);
-    if (wanted > capacity_) {
-      const std::size_t capacity = std::max(wanted, padded(capacity_ + capacity_ / 2));
-      T* grown = static_cast<T*>(memory_->allocate(capacity * sizeof(T), kColumnAlignment));
-      std::copy(data_, data_ + size_, grown);
-      std::fill(grown + size_, grown + capacity, fill_);
-      release();
-      data_ = grown;
-      capacity_ = capacity;
-    } else if (size < size_) {
-      std::fill(data_ + size, data_ + size_, fill_);
-    }
+    reserve(size);
+    if (size < size_) std::fill(data_ + size, data_ + size_, fill_);
     size_ = size;
   }
   void push_back(T value) {
@@ -122,7 +124,11 @@ struct Vec3Column {
   Column<float> x, y, z;
 
   explicit Vec3Column(std::pmr::memory_resource* memory) : x(memory), y(memory), z(memory) {}
-  void resize(std::size_t size) { x.resize(size), y.resize(size), z.resize(size); }
+  void reserve(std::size_t size) { x.reserve(size), y.reserve(size), z.reserve(size); }
+  void resize(std::size_t size) {
+    reserve(size);
+    x.resize(size), y.resize(size), z.resize(size);
+  }
   void erase(std::size_t begin, std::size_t count) {
     x.erase(begin, count), y.erase(begin, count), z.erase(begin, count);
   }

@@ -1,7 +1,7 @@
 // Curved PN triangles: a cubic patch from three points and their normals.
 //   A. Vlachos, J. Peters, C. Boyd, J. L. Mitchell, "Curved PN Triangles", 2001.
 // The ten control points need not be formed. With w_ij = (P_j - P_i).N_i the patch is the flat triangle less six terms,
-//   X(a,b,c) = a P_0 + b P_1 + c P_2 - sum over sides ij of  (ij + abc/2 part, below)  w_ij N_i,
+//   X(p) = p_0 P_0 + p_1 P_1 + p_2 P_2 - sum over the corners i and their neighbours j of  bend_weight_ij(p) w_ij N_i,
 // so a flat face with upright normals is reproduced exactly.
 #pragma once
 

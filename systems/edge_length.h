@@ -14,7 +14,7 @@ namespace pleat {
 ///           closed by e^2 / (e + 1 %)
 ///   h       on the side to which the curve bulges already, fading to 0 within 2 % of bulge where that side is open.
 ///           L(h) of the folded curve (components/pn_edge.h) is convex; one Newton step from the closed form for a
-///           straight edge meets the target to 0.2 % down to a third of the length
+///           straight edge meets the target to 0.5 % down to 0.3 of the length
 /// kPaper
 ///   n       the quadratic normal of the PN triangle; h > 0
 ///   target  the straight rest length. The two halves are PN curves anew, over a-p' and p'-b

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "systems/angle.h"
+
 namespace pleat {
 namespace {
 
@@ -43,7 +45,7 @@ void HingeBending::run() const {
     }
     if (yielding == 0.0f) continue;
 
-    const float theta = std::atan2(dot(cross(na, nb), u), dot(na, nb));
+    const float theta = angle_of(-e_length * dot(na, x3 - x0), dot(na, nb));
     const float c = std::min(stiffness * garment->hinge_shape[h], bound / yielding);
     const float moment = c * angle_between(theta, garment->hinge_rest_angle[h]) + safe_rate / yielding * speed;
     for (int k = 0; k < 4; ++k) force.add(p[k], g[k] * -moment);

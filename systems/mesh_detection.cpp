@@ -37,6 +37,8 @@ struct MeshTest {
   Stats& stats;
   float friction = pose.mesh.friction;
   float reach = in.thickness + margin;
+  // Between the ends of so short a ridge, which the faces are kept from, an edge sinks in by less than the thickness.
+  float short_ridge = 3.0f * in.thickness;
   // Particles that start deep are looked for once a tick only.
   float search = in.t0 == 0.0f ? std::max(reach, kMeshDepth) : reach;
 
@@ -59,6 +61,9 @@ struct MeshTest {
     f.area = cross(u, v);
     f.area2 = dot(f.area, f.area);
     f.normal = normalized_or(f.area, Vec3{});
+    for (std::size_t c = 0; c < 3; ++c) {
+      f.outward[c] = normalized_or(cross(f.x[(c + 1) % 3] - f.x[c], f.normal), Vec3{});
+    }
     in.bodies->for_each_triangle(mesh, box, [&](std::uint32_t t) { meet(f, t); });
     for (std::size_t c = 0; c < 3; ++c) add_particle_row(f, c);
     for (std::size_t k = 0; k < f.standing_count; ++k) add_face_row(f, f.standing[k]);
@@ -70,6 +75,7 @@ struct MeshTest {
     Vec3 x[3];
     bool owns_particle[3] = {}, owns_edge[3] = {};
     Vec3 area, normal;
+    Vec3 outward[3];  // in the face's plane, away from it over edge c
     float area2 = 0.0f;
     std::array<Nearest, 3> nearest;
     std::array<Standing, kRowsPerFace> standing;
@@ -78,18 +84,22 @@ struct MeshTest {
 
   void meet(Face& f, std::uint32_t t) const {
     const MeshPose::Corners body = pose.corners(t);
-    const float heights[] = {dot(body.a - f.x[0], f.normal), dot(body.b - f.x[0], f.normal),
-                             dot(body.c - f.x[0], f.normal)};
-    const float low = std::min({heights[0], heights[1], heights[2]}),
-                high = std::max({heights[0], heights[1], heights[2]});
+    const auto least = [&](const Vec3& axis, const Vec3& from) {
+      return std::min({dot(body.a - from, axis), dot(body.b - from, axis), dot(body.c - from, axis)});
+    };
+    const float low = least(f.normal, f.x[0]), high = -least(-f.normal, f.x[0]);
     if (low > search || high < -search) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (least(f.outward[c], f.x[c]) > search) return;
+    }
     for (std::size_t c = 0; c < 3; ++c) {
       if (f.owns_particle[c]) find_nearest(f.x[c], t, body, f.nearest[c]);
     }
     if (low > reach || high < -reach) return;
     for (int k = 0; k < 3; ++k) {
-      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k]);
-      if (!pose.topology.owns_edge(t, k)) continue;
+      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k], body);
+      const Vec3 along = body[(k + 1) % 3] - body[k];
+      if (!pose.topology.owns_edge(t, k) || dot(along, along) < short_ridge * short_ridge) continue;
       for (int c = 0; c < 3; ++c) {
         if (f.owns_edge[c]) test_edges(f, c, t, body, k);
       }
@@ -132,15 +142,16 @@ struct MeshTest {
     rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, in.thickness, step, friction, true, stats);
   }
 
-  /// A vertex q of the body over the inside of the face.
-  void test_vertex(Face& f, std::uint32_t vertex, const Vec3& q) const {
+  /// A vertex q of the body, of the triangle `around`, over the inside of the face. Where it stands out, the normal of
+  /// any triangle around tells its side; elsewhere the side does not matter.
+  void test_vertex(Face& f, std::uint32_t vertex, const Vec3& q, const MeshPose::Corners& around) const {
     const Vec3 w = q - f.x[0];
     const float height = -dot(w, f.normal);
     if (!(f.area2 > 1e-16f) || std::abs(height) > reach) return;
     const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
     const float b1 = dot(cross(w, v), f.area) / f.area2, b2 = dot(cross(u, w), f.area) / f.area2;
     if (!(b1 > 0.0f && b2 > 0.0f && b1 + b2 < 1.0f)) return;
-    const float side = dot(pose.vertex_normal(vertex), f.normal) < 0.0f ? -1.0f : 1.0f;
+    const float side = dot(cross(around.b - around.a, around.c - around.a), f.normal) < 0.0f ? -1.0f : 1.0f;
     const Standing found{side * height, vertex, {1.0f - b1 - b2, b1, b2}, f.normal * side};
     const bool full = f.standing_count == kRowsPerFace;
     Standing* highest = std::max_element(f.standing.data(), f.standing.data() + f.standing_count,
@@ -195,11 +206,15 @@ void MeshDetection::run(Stats& stats) const {
   const float margin = contact_margin(position, previous, garment->particle_count);
   const Box box = box_of(position, garment->particle_count).grown(std::max(thickness + margin, kMeshDepth));
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
+  const std::uint32_t first = *contacts.count;
   for (std::size_t m = 0; m < bodies->mesh_count(); ++m) {
     if (!meshes[m]->enabled || !box.overlaps(bodies->swept_box(m))) continue;
     const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, margin, stats};
     for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
   }
+  // A particle is pushed best by its own row; an edge's row first would overshoot at one end.
+  std::partition(contacts.rows + first, contacts.rows + *contacts.count,
+                 [](const ContactRow& row) { return row.at_particle; });
 }
 
 }  // namespace pleat

@@ -17,9 +17,13 @@ inline std::array<float, 3> face_shares(const Vec3& a, const Vec3& b, const Vec3
                                         const std::array<float, 3>& rest_length, float mean_length) {
   std::array<float, 3> share = corner_weights(rest_length, mean_length);
   if constexpr (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) {
+    const auto strain = [](const Vec3& side, float rest) {
+      const float e = length(side) / rest - 1.0f;
+      return mode == SurfaceMode::kPaper || e > 0.0f ? e : 0.0f;
+    };
     const Vec3 ab = b - a, bc = c - b, ca = a - c;  // eq (1) over k, from each corner towards the next
-    const Vec3 fa = ab * (length(ab) / rest_length[0] - 1.0f), fb = bc * (length(bc) / rest_length[1] - 1.0f),
-               fc = ca * (length(ca) / rest_length[2] - 1.0f);
+    const Vec3 fa = ab * strain(ab, rest_length[0]), fb = bc * strain(bc, rest_length[1]),
+               fc = ca * strain(ca, rest_length[2]);
     const float scale = 1.0f / mean_length;
     const std::array<float, 3> force{scale * length(fa - fc), scale * length(fb - fa), scale * length(fc - fb)};
     if constexpr (mode == SurfaceMode::kPaper) {

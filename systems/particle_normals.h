@@ -11,12 +11,12 @@ namespace pleat {
 ///   kFlat, kPn  N_i = sum w_ij n_j: the base normal. w_ij is about 1, less as the face collapses (base_normal.h)
 ///   kPaper      N_i = sum |f_i^j| n_j, eq (3); the base normal only where no force is
 ///   kPleat      N_i = sum w_ij n_j (1 + |f_i^j| / f0), f0 = the force at 5 % strain of a mean edge
-/// f_i^j is eq (4), the sum of the forces of eq (1) along the face's two edges at i. Below f0 the ratios of forces are
-/// mostly noise, which turns the normals of eq (3) at random; and without w_ij they jump when a face turns over. The
-/// stiffness k is common to all forces and drops out.
-/// Reads:  garment faces and rest lengths; position (P) m
-/// Writes: normal (P) unit
-/// Cost:   O(F + P), no allocation. Errors: none; where the faces around cancel, or there is none, the normal is some
+/// f_i^j is eq (4), the sum of the forces of eq (1) along the face's two edges at i. The stiffness k is common to all
+/// forces and drops out. What kPleat changes: below f0 the ratios of forces are mostly noise, which turns the normals
+/// of eq (3) at random; without w_ij normals jump when a face turns over; and a short edge counts as slack, for cloth
+/// that is pushed buckles away from its tangent instead of following it. Reads:  garment faces and rest lengths;
+/// position (P) m Writes: normal (P) unit Cost:   O(F + P), no allocation. Errors: none; where the faces around cancel,
+/// or there is none, the normal is some
 ///         fixed unit vector.
 struct ParticleNormals {
   SurfaceMode mode = SurfaceMode::kPleat;

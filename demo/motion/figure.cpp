@@ -197,4 +197,26 @@ double ground_height(const Figure& figure, const Clip& clip) {
   return lowest;
 }
 
+std::size_t calibration_frames(const Figure& figure, const Clip& clip) {
+  constexpr std::size_t kSearched = 10;
+  constexpr double kFastest = 12.0;  // m/s; a sprinting foot reaches 9 against the hips
+  const auto ends_at = [&](std::size_t frame) {
+    const Pose pose = pose_at_frame(clip, frame);
+    std::vector<Vector3d> ends;
+    for (const BodyCapsule& capsule : figure.capsules)
+      ends.push_back(world(capsule.b, pose) - world(figure.hips, pose));
+    return ends;
+  };
+  std::size_t count = 0;
+  std::vector<Vector3d> before = ends_at(0);
+  for (std::size_t frame = 1; frame < std::min(kSearched + 1, clip.frame_count()); ++frame) {
+    std::vector<Vector3d> now = ends_at(frame);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if ((now[i] - before[i]).norm() > kFastest * clip.frame_time) count = frame;
+    }
+    before = std::move(now);
+  }
+  return count;
+}
+
 }  // namespace pleat::demo

@@ -61,4 +61,9 @@ Eigen::Isometry3d hips_at(const Figure& figure, const Pose& pose);
 /// Height of the lowest point that a foot reaches in the whole clip: where the ground is, m.
 double ground_height(const Figure& figure, const Clip& clip);
 
+/// How many frames at the start lead from another pose: recordings often begin with a calibration pose and reach the
+/// motion within a few frames. Counts up to the last of the first ten in which a limb is faster, against the hips, than
+/// a human's.
+std::size_t calibration_frames(const Figure& figure, const Clip& clip);
+
 }  // namespace pleat::demo

@@ -1,0 +1,203 @@
+#include "systems/capsule_detection.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "systems/closest_points.h"
+#include "systems/collision_response.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kThickness = 0.005f, kDt = 0.002f;
+
+CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& capsules) {
+  cloth.row_count = 0;
+  return {&cloth.garment,
+          cloth.position.view(),
+          cloth.previous.view(),
+          cloth.inverse_mass.data(),
+          capsules.data(),
+          static_cast<std::uint32_t>(capsules.size()),
+          kThickness,
+          0.5f,
+          kDt,
+          cloth.scratch.data(),
+          cloth.contacts()};
+}
+
+void respond(ContactCloth& cloth, int passes, FaceResponse response = FaceResponse::kWeighted) {
+  Stats stats;
+  for (int i = 0; i < passes; ++i) {
+    CollisionResponse{cloth.contacts(), cloth.inverse_mass.data(), response, cloth.position.view()}.run(stats);
+  }
+}
+
+float depth(const Vec3& p, const CapsulePose& c) {
+  return c.radius - length(p - lerp(c.a, c.b, closest_on_segment(p, c.a, c.b)));
+}
+
+/// The deepest of 45 points of the first face.
+float face_depth(const ContactCloth& cloth, const CapsulePose& c) {
+  float deepest = -1.0f;
+  for (int i = 0; i <= 8; ++i) {
+    for (int j = 0; j <= 8 - i; ++j) {
+      const float a = static_cast<float>(i) / 8.0f, b = static_cast<float>(j) / 8.0f;
+      const auto& corner = cloth.garment.face_particle;
+      const Vec3 p = cloth.x(corner[0][0]) * a + cloth.x(corner[1][0]) * b + cloth.x(corner[2][0]) * (1.0f - a - b);
+      deepest = std::max(deepest, depth(p, c));
+    }
+  }
+  return deepest;
+}
+
+TEST(CapsuleDetection, ParticleIsPushedToSurfaceAndThickness) {
+  ContactCloth cloth({{0.099f, 0.0f, 0.0f}, {1, 0, 0}, {1, 0, 1}}, {{0, 1, 2}});
+  const std::vector<CapsulePose> capsules = {
+      {.a = {0, -1, 0}, .b = {0, 1, 0}, .step_a = {}, .step_b = {}, .radius = 0.1f}};
+  Stats stats;
+  const CapsuleDetection system = detection(cloth, capsules);
+  ASSERT_TRUE(system.validate());
+  system.run(stats);
+  respond(cloth, 1);
+  EXPECT_NEAR(cloth.x(0).x, 0.1f + 0.003f, 1e-6f);  // 1 mm deep at the start: 2 m/s brings back 4 mm in a substep
+  cloth.put(0, {0.099f, 0, 0}, {0.11f, 0, 0});      // came in during the substep: all of it is undone
+  detection(cloth, capsules).run(stats);
+  respond(cloth, 1);
+  EXPECT_NEAR(cloth.x(0).x, 0.105f, 1e-6f);
+}
+
+TEST(CapsuleDetection, PastTheCoreReturnsToItsSide) {
+  ContactCloth cloth({{0.02f, 0.0f, 0.0f}, {1, 0, 0}, {1, 0, 1}}, {{0, 1, 2}});
+  cloth.put(0, {-0.004f, 0, 0}, {0.026f, 0, 0});
+  Stats stats;
+  detection(cloth, {{.a = {0, -1, 0}, .b = {0, 1, 0}, .step_a = {}, .step_b = {}, .radius = 0.02f}}).run(stats);
+  respond(cloth, 1);
+  EXPECT_NEAR(cloth.x(0).x, 0.025f, 1e-6f);
+}
+
+TEST(CapsuleDetection, FaceCutWithoutCornerInsideComesOutAtEveryPoint) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  int cut = 0, through = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const CapsulePose capsule{.a = {-0.05f, 0, 0},
+                              .b = {0.05f + 0.05f * any(random), 0, 0.03f * any(random)},
+                              .step_a = {},
+                              .step_b = {},
+                              .radius = 0.06f};
+    // A face that came down on the capsule: 8 mm in the substep, the corners beside it.
+    std::vector<Vec3> x(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float angle = (static_cast<float>(k) + 0.5f * any(random)) * 2.0944f;
+      x[k] = {0.2f * std::cos(angle), 0.06f + 0.02f * any(random), -0.2f * std::sin(angle)};
+    }
+    ContactCloth cloth(x, {{0, 1, 2}});
+    for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, x[i], x[i] + Vec3{0, 0.012f, 0});
+    const Vec3 up{0, 0.012f, 0};
+    const bool began_outside = [&] {
+      ContactCloth before({x[0] + up, x[1] + up, x[2] + up}, {{0, 1, 2}});
+      return face_depth(before, capsule) < 0.0f;
+    }();
+    if (!began_outside || face_depth(cloth, capsule) < 0.001f) continue;
+    ++cut;
+    Stats stats;
+    detection(cloth, {capsule}).run(stats);
+    respond(cloth, 8);
+    const float left = face_depth(cloth, capsule);
+    if (left > 0.0f) ++through;
+    EXPECT_LT(left, 0.001f) << "case " << n;
+  }
+  EXPECT_GT(cut, 300);
+  EXPECT_EQ(through, 0);
+}
+
+TEST(CapsuleDetection, WholeResponseMovesAllCornersAlike) {
+  const std::vector<Vec3> x = {{-0.2f, 0, -0.1f}, {0.2f, 0, -0.12f}, {0, 0, 0.2f}};
+  ContactCloth cloth(x, {{0, 2, 1}});
+  for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, x[i], x[i] + Vec3{0, 0.02f, 0});
+  Stats stats;
+  detection(cloth, {{.a = {0.02f, -0.05f, 0}, .b = {0.02f, -0.5f, 0}, .step_a = {}, .step_b = {}, .radius = 0.06f}})
+      .run(stats);
+  ASSERT_EQ(cloth.row_count, 1u);
+  respond(cloth, 1, FaceResponse::kWhole);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(length(cloth.x(i) - x[i] - Vec3{0, 0.015f, 0}), 0.0f, 1e-6f);  // 0.06 - 0.05 + thickness
+  }
+}
+
+TEST(CapsuleDetection, MovingCapsuleCarriesTheParticle) {
+  ContactCloth cloth({{0.105f, 0.0f, 0.0f}, {1, 0, 0}, {1, 0, 1}}, {{0, 1, 2}});
+  Stats stats;
+  for (int n = 1; n <= 100; ++n) {  // 5 m/s, 10 mm a substep
+    const float x = 0.01f * static_cast<float>(n);
+    cloth.put(0, cloth.x(0), cloth.x(0));
+    detection(cloth,
+              {{.a = {x, -1, 0}, .b = {x, 1, 0}, .step_a = {0.01f, 0, 0}, .step_b = {0.01f, 0, 0}, .radius = 0.1f}})
+        .run(stats);
+    respond(cloth, 1);
+    ASSERT_NEAR(cloth.x(0).x, x + 0.105f, 1e-5f);
+  }
+}
+
+TEST(CapsuleDetection, DegenerateFeaturesMakeFiniteRows) {
+  const std::vector<Vec3> same = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, line = {{0, -1, 0}, {0, 0, 0}, {0, 1, 0}};
+  for (const std::vector<Vec3>& x : {same, line}) {
+    ContactCloth cloth({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, x[i], x[i]);
+    Stats stats;
+    detection(cloth, {{.a = {0, -1, 0}, .b = {0, 1, 0}, .step_a = {}, .step_b = {}, .radius = 0.0f},
+                      {.a = {0, 0, 0}, .b = {0, 0, 0}, .step_a = {}, .step_b = {}, .radius = 0.1f}})
+        .run(stats);
+    EXPECT_GT(cloth.row_count, 0u);
+    for (std::uint32_t c = 0; c < cloth.row_count; ++c) {
+      const ContactRow& row = cloth.rows[c];
+      EXPECT_TRUE(std::isfinite(row.offset) && row.inverse_mass > 0.0f);
+      EXPECT_NEAR(length(row.normal), 1.0f, 1e-5f);
+    }
+    respond(cloth, 3);
+    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(is_finite(cloth.x(i)));
+  }
+}
+
+TEST(CapsuleDetection, PinnedFacesMakeNoRowsAndFullListsAreCounted) {
+  const std::vector<CapsulePose> capsules = {
+      {.a = {0, -1, 0}, .b = {0, 1, 0}, .step_a = {}, .step_b = {}, .radius = 0.5f}};
+  ContactCloth pinned({{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}}, {{0, 2, 1}}, {0, 1, 2});
+  Stats stats;
+  detection(pinned, capsules).run(stats);
+  EXPECT_EQ(pinned.row_count, 0u);
+
+  ContactCloth cloth({{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}}, {{0, 2, 1}});
+  detection(cloth, capsules).run(stats);
+  const std::uint32_t all = cloth.row_count;
+  ASSERT_GT(all, 2u);
+  cloth.rows.resize(2);
+  detection(cloth, capsules).run(stats);
+  EXPECT_EQ(cloth.row_count, 2u);
+  EXPECT_EQ(stats.contacts_dropped, all - 2);
+}
+
+TEST(CapsuleDetection, ValidateRefusesBrokenFields) {
+  ContactCloth cloth({{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}}, {{0, 2, 1}});
+  const CapsuleDetection good = detection(cloth, {});
+  EXPECT_TRUE(good.validate());
+  CapsuleDetection bad = good;
+  bad.garment = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.capsule_count = 1;
+  bad.capsules = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.dt = 0.0f;
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.thickness = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(bad.validate());
+}
+
+}  // namespace
+}  // namespace pleat::test

@@ -1,0 +1,132 @@
+#include "systems/collision_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "systems/collider_motion.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+CapsuleColumns random_capsules(std::size_t count, std::mt19937& random) {
+  std::uniform_real_distribution<float> place(-5.0f, 5.0f), little(-0.2f, 0.2f);
+  CapsuleColumns capsules(memory());
+  for (Vec3Column* c : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
+    c->resize(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 centre{place(random), place(random), place(random)};
+    for (Vec3Column* c : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
+      c->view().set(i, centre + Vec3{little(random), little(random), little(random)});
+    }
+    capsules.radius.push_back(0.1f);
+    capsules.friction.push_back(0.5f);
+    capsules.enabled.push_back(i % 7 != 0);
+  }
+  return capsules;
+}
+
+Box capsule_box(const CapsuleColumns& c, std::size_t i) {
+  Box box;
+  for (const Vec3Column* end : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) box.include(end->view()[i]);
+  return box.grown(c.radius[i]);
+}
+
+TEST(CollisionBodies, FindsEveryEnabledCapsuleThroughMovesAndRemovals) {
+  std::mt19937 random(1);
+  CollisionBodies bodies(memory());
+  const Box asked{{-2, -2, -2}, {1, 2, 2}};
+  for (const std::size_t count : {300u, 300u, 100u, 400u, 0u, 5u}) {
+    const CapsuleColumns capsules = random_capsules(count, random);
+    bodies.update_capsules(capsules);
+    std::set<std::uint32_t> found;
+    bodies.for_each_capsule(asked, [&](std::uint32_t i) { EXPECT_TRUE(found.insert(i).second); });
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const bool enabled = capsules.enabled[i] != 0;
+      EXPECT_GE(found.count(i), enabled && capsule_box(capsules, i).overlaps(asked) ? 1u : 0u);
+      EXPECT_LE(found.count(i), enabled ? 1u : 0u);
+    }
+    EXPECT_LE(found.size(), count);
+  }
+}
+
+TEST(CollisionBodies, FindsEveryTriangleAlongItsSweep) {
+  const BodyShape sphere = icosphere(3, 1.0f);
+  MeshCollider mesh = make_body(sphere.positions, sphere.triangles);
+  CollisionBodies bodies(memory());
+  bodies.add_mesh(mesh);
+  for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
+    mesh.previous.view().set(i, sphere.positions[i] * 1.5f);
+    mesh.next.view().set(i, sphere.positions[i] * 1.2f + Vec3{3, 0, 0});
+  }
+  bodies.update_mesh(0, mesh);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> place(-2.0f, 4.0f);
+  int hits = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 corner{place(random), place(random), place(random)};
+    const Box asked{corner, corner + Vec3{0.3f, 0.3f, 0.3f}};
+    std::set<std::uint32_t> found;
+    bodies.for_each_triangle(0, asked, [&](std::uint32_t t) { EXPECT_TRUE(found.insert(t).second); });
+    for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) {
+      Box box;
+      for (const std::uint32_t v : sphere.triangles[t]) {
+        box.include(mesh.previous.view()[v]);
+        box.include(mesh.next.view()[v]);
+      }
+      if (!box.overlaps(asked)) continue;
+      EXPECT_EQ(found.count(t), 1u);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+TEST(CollisionBodies, RemovingAMeshClosesTheGap) {
+  CollisionBodies bodies(memory());
+  for (const float radius : {1.0f, 2.0f, 3.0f}) {
+    const BodyShape s = icosphere(0, radius);
+    bodies.add_mesh(make_body(s.positions, s.triangles));
+  }
+  bodies.remove_mesh(1);
+  ASSERT_EQ(bodies.mesh_count(), 2u);
+  EXPECT_GT(bodies.swept_box(1).high.x, 2.1f);
+  EXPECT_LT(bodies.swept_box(0).high.x, 1.1f);
+}
+
+TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
+  std::mt19937 random(5);
+  const CapsuleColumns capsules = random_capsules(500, random);
+  CollisionBodies bodies(memory());
+  bodies.update_capsules(capsules);
+  ContactCloth cloth({{-1, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}});
+  std::vector<CapsulePose> poses(64);
+  std::uint32_t count = 0;
+  Stats stats;
+  ColliderMotion motion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.25f, 0.5f, poses.data(), 64, &count};
+  ASSERT_TRUE(motion.validate());
+  motion.run(stats);
+  ASSERT_GT(count, 1u);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t i = poses[k].index;
+    EXPECT_TRUE(k == 0 || poses[k - 1].index < i);
+    const Vec3 from = capsules.previous_a.view()[i], to = capsules.next_a.view()[i];
+    EXPECT_LT(length(poses[k].a - (from + (to - from) * 0.5f)), 1e-6f);
+    EXPECT_LT(length(poses[k].step_a - (to - from) * 0.25f), 1e-6f);
+    EXPECT_EQ(poses[k].friction, 0.5f);
+  }
+  EXPECT_EQ(stats.contacts_dropped, 0u);
+  const std::uint32_t all = count;
+  motion.capacity = 1;
+  motion.run(stats);
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(stats.contacts_dropped, all - 1);
+  motion.t1 = motion.t0;
+  EXPECT_FALSE(motion.validate());
+}
+
+}  // namespace
+}  // namespace pleat::test

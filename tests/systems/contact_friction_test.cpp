@@ -1,0 +1,146 @@
+#include "systems/contact_friction.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/collision_response.h"
+#include "systems/contact_acceleration.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kDt = 0.002f, kThickness = 0.005f, kGravity = 9.81f;
+
+/// A particle on a plane through the origin that is tilted about z.
+struct Incline {
+  ContactCloth cloth{{{0, 0, 0}, {0, 100, 0}, {1, 100, 0}}, {{0, 1, 2}}};
+  Vec3 normal, downhill;
+  float friction;
+  Vec3 plane_velocity;
+  Vec3 plane;
+  bool constrain_acceleration;
+  Stats stats;
+
+  Incline(float degrees, float mu, bool acceleration)
+      : normal{std::sin(degrees * 0.0174532925f), std::cos(degrees * 0.0174532925f), 0},
+        downhill{normal.y, -normal.x, 0},
+        friction(mu),
+        constrain_acceleration(acceleration) {
+    cloth.put(0, normal * kThickness, {});
+  }
+
+  void substep() {
+    ContactCloth& c = cloth;
+    c.force.view().set(0, Vec3{0, -kGravity, 0} * (1.0f / c.inverse_mass[0]));
+    if (constrain_acceleration) {
+      ContactAcceleration{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(),
+                          kDt,          c.force.view()}
+          .run();
+    }
+    c.velocity.view().add(0, c.force.view()[0] * (c.inverse_mass[0] * kDt));
+    const Vec3 before = c.x(0), predicted = before + c.velocity.view()[0] * kDt;
+    c.put(0, predicted, before);
+    plane += plane_velocity * kDt;
+    c.row_count = 0;
+    add_row();
+    const CollisionResponse response{c.contacts(), c.inverse_mass.data(), FaceResponse::kWeighted, c.position.view()};
+    for (int i = 0; i < 3; ++i) response.run(stats);
+    ContactFriction{c.contacts(), c.previous.view(), c.inverse_mass.data(), c.position.view()}.run();
+    response.run(stats);
+    c.velocity.view().add(0, (c.x(0) - predicted) * (1.0f / kDt));
+    ContactVelocity{c.contacts(), c.inverse_mass.data(), kDt, c.velocity.view()}.run();
+  }
+
+  void add_row() {
+    cloth.contacts().add({.particle = {0, 0, 0},
+                          .weight = {1, 0, 0},
+                          .normal = normal,
+                          .offset = dot(normal, plane) + kThickness,
+                          .body_step = plane_velocity * kDt,
+                          .friction = friction,
+                          .inverse_mass = cloth.inverse_mass[0],
+                          .push = 0.0f,
+                          .at_particle = true});
+  }
+};
+
+TEST(ContactFriction, SticksBelowTheFrictionAngleAndSlidesAbove) {
+  for (const bool acceleration : {false, true}) {
+    for (const float degrees : {5.0f, 10.0f, 16.0f, 20.0f, 30.0f, 45.0f}) {
+      Incline incline(degrees, 0.3f, acceleration);
+      for (int n = 0; n < 500; ++n) incline.substep();
+      const float angle = degrees * 0.0174532925f, speed = dot(incline.cloth.velocity.view()[0], incline.downhill);
+      const float pull = kGravity * (std::sin(angle) - 0.3f * std::cos(angle));
+      if (pull < 0.0f) {
+        EXPECT_NEAR(speed, 0.0f, 1e-5f) << degrees;
+        EXPECT_NEAR(dot(incline.cloth.x(0), incline.downhill), 0.0f, 1e-5f) << degrees;
+      } else {
+        EXPECT_NEAR(speed, pull * 500.0f * kDt, 0.01f * pull) << degrees << (acceleration ? " constrained" : "");
+      }
+      EXPECT_NEAR(dot(incline.cloth.x(0), incline.normal), kThickness, 1e-5f);
+    }
+  }
+}
+
+TEST(ContactFriction, MovingSurfaceCarriesWhatLiesOnIt) {
+  for (const bool acceleration : {false, true}) {
+    Incline incline(0.0f, 0.5f, acceleration);
+    incline.plane_velocity = {1, 0, 0};
+    const float needed = 1.0f / (0.5f * kGravity);  // s until the particle has the belt's speed
+    const int substeps = static_cast<int>(needed / kDt);
+    for (int n = 0; n < substeps / 2; ++n) incline.substep();
+    EXPECT_NEAR(incline.cloth.velocity.view()[0].x, 0.5f, 0.02f);
+    for (int n = 0; n < substeps; ++n) incline.substep();
+    EXPECT_NEAR(incline.cloth.velocity.view()[0].x, 1.0f, 1e-4f);
+  }
+}
+
+TEST(ContactFriction, DoesNotPullWithoutPush) {
+  Incline incline(0.0f, 1.0f, false);
+  incline.add_row();
+  incline.cloth.put(0, {1, 1, 0}, {0, 1, 0});
+  ContactFriction{incline.cloth.contacts(), incline.cloth.previous.view(), incline.cloth.inverse_mass.data(),
+                  incline.cloth.position.view()}
+      .run();
+  EXPECT_EQ(incline.cloth.x(0), (Vec3{1, 1, 0}));
+}
+
+TEST(ContactVelocity, TakesOutOnlyLeavingVelocityOfRowsThatPushed) {
+  Incline incline(0.0f, 0.0f, false);
+  ContactCloth& c = incline.cloth;
+  const auto run = [&](const Vec3& v, float push) {
+    c.row_count = 0;
+    incline.add_row();
+    c.rows[0].push = push;
+    c.velocity.view().set(0, v);
+    ContactVelocity{c.contacts(), c.inverse_mass.data(), kDt, c.velocity.view()}.run();
+    return c.velocity.view()[0];
+  };
+  EXPECT_EQ(run({1, 2, 3}, 0.001f), (Vec3{1, 0, 3}));
+  EXPECT_EQ(run({1, 2, 3}, 0.0f), (Vec3{1, 2, 3}));
+  EXPECT_EQ(run({1, -2, 3}, 0.001f), (Vec3{1, -2, 3}));
+}
+
+TEST(ContactAcceleration, TakesOutTheForceIntoTheBodyOnly) {
+  Incline incline(0.0f, 0.0f, true);
+  ContactCloth& c = incline.cloth;
+  const auto run = [&](const Vec3& force, const Vec3& velocity, float height) {
+    c.row_count = 0;
+    incline.add_row();
+    c.put(0, {0, kThickness + height, 0}, {});
+    c.velocity.view().set(0, velocity);
+    c.force.view().set(0, force);
+    const ContactAcceleration system{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(),
+                                     kDt,          c.force.view()};
+    EXPECT_TRUE(system.validate());
+    system.run();
+    return c.force.view()[0];
+  };
+  EXPECT_EQ(run({1, -2, 3}, {}, 0.0f), (Vec3{1, 0, 3}));
+  EXPECT_EQ(run({1, 2, 3}, {}, 0.0f), (Vec3{1, 2, 3})) << "pulled away";
+  EXPECT_EQ(run({1, -2, 3}, {}, 0.001f), (Vec3{1, -2, 3})) << "not touching";
+  EXPECT_EQ(run({1, -2, 3}, {0, 1, 0}, 0.0f), (Vec3{1, -2, 3})) << "leaving";
+}
+
+}  // namespace
+}  // namespace pleat::test

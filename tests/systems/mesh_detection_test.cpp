@@ -1,0 +1,187 @@
+#include "systems/mesh_detection.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "systems/closest_points.h"
+#include "systems/collision_response.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kThickness = 0.005f, kDt = 0.002f;
+
+/// One body and what is needed to ask about it.
+struct Body {
+  MeshCollider mesh;
+  const MeshCollider* pointer = &mesh;
+  CollisionBodies bodies{memory()};
+
+  explicit Body(const BodyShape& shape) : mesh(make_body(shape.positions, shape.triangles)) { bodies.add_mesh(mesh); }
+
+  MeshDetection detection(ContactCloth& cloth, float t0 = 0.0f, float t1 = 1.0f) {
+    cloth.row_count = 0;
+    return {&cloth.garment,
+            cloth.position.view(),
+            cloth.previous.view(),
+            cloth.inverse_mass.data(),
+            &bodies,
+            &pointer,
+            t0,
+            t1,
+            kThickness,
+            0.5f,
+            kDt,
+            cloth.contacts()};
+  }
+  void touch(ContactCloth& cloth, int passes = 4) {
+    Stats stats;
+    detection(cloth).run(stats);
+    EXPECT_EQ(stats.contacts_dropped, 0u);
+    for (int i = 0; i < passes; ++i) {
+      CollisionResponse{cloth.contacts(), cloth.inverse_mass.data(), FaceResponse::kWeighted, cloth.position.view()}
+          .run(stats);
+    }
+  }
+};
+
+/// A face so small that it is a particle.
+ContactCloth speck(const Vec3& at, const Vec3& before) {
+  ContactCloth cloth({at, at + Vec3{1e-4f, 0, 0}, at + Vec3{0, 0, 1e-4f}}, {{0, 2, 1}});
+  for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, cloth.x(i), cloth.x(i) + (before - at));
+  return cloth;
+}
+
+TEST(MeshDetection, SphereMeshAgreesWithTheSphere) {
+  Body body(icosphere(4, 0.3f));  // its triangles lie up to 0.4 mm inside the sphere
+  std::mt19937 random(4);
+  std::normal_distribution<float> normal;
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 way = normalized_or(Vec3{normal(random), normal(random), normal(random)}, {0, 1, 0});
+    const float gap = -0.025f + 0.00002f * static_cast<float>(n);  // from 25 mm inside to 15 mm outside
+    ContactCloth cloth = speck(way * (0.3f + gap), way * 0.31f);
+    body.touch(cloth);
+    EXPECT_NEAR(length(cloth.x(0)), std::max(0.305f, 0.3f + gap), 0.001f) << "gap " << gap;
+  }
+}
+
+TEST(MeshDetection, BoxCornersAndEdgesTellInsideFromOutside) {
+  Body body(box_shape({0.1f, 0.1f, 0.1f}));
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> any(-0.12f, 0.12f);
+  const auto clearance = [](const Vec3& p) {  // signed distance from the box
+    const Vec3 q{std::abs(p.x) - 0.1f, std::abs(p.y) - 0.1f, std::abs(p.z) - 0.1f};
+    const Vec3 out{std::max(q.x, 0.0f), std::max(q.y, 0.0f), std::max(q.z, 0.0f)};
+    return length(out) + std::min(std::max({q.x, q.y, q.z}), 0.0f);
+  };
+  int inside = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const Vec3 p{any(random), any(random), any(random)};
+    const float gap = clearance(p);
+    if (gap < -0.029f || std::abs(gap + 0.03f) < 1e-3f) continue;
+    inside += gap < 0.0f;
+    // It came in through the nearest side.
+    Vec3 before = p;
+    const Vec3 deep{std::abs(p.x), std::abs(p.y), std::abs(p.z)};
+    const float most = std::max({deep.x, deep.y, deep.z});
+    (most == deep.x ? before.x : most == deep.y ? before.y : before.z) *= 0.106f / most;
+    ContactCloth cloth = speck(p, before);
+    body.touch(cloth);
+    EXPECT_GT(clearance(cloth.x(0)), kThickness - 4e-4f) << "gap " << gap << " at " << p.x << ' ' << p.y << ' ' << p.z;
+    EXPECT_LT(clearance(cloth.x(0)), std::max(kThickness, gap) + 4e-4f);
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(MeshDetection, RidgeCutsNoEdgeAndCornerNoFace) {
+  // A large face comes down on a box whose top edge, or corner, points at it; its own corners stay far outside.
+  const BodyShape box = box_shape({0.1f, 0.1f, 0.1f});
+  for (const bool on_corner : {false, true}) {
+    BodyShape turned = box;
+    for (Vec3& p : turned.positions) {
+      const float c = std::sqrt(0.5f);
+      p = {c * (p.x - p.y), c * (p.x + p.y), p.z};  // an edge along z on top, y = 0.1414
+      const float d = std::sqrt(1.0f / 3.0f), e = std::sqrt(2.0f / 3.0f);
+      if (on_corner) p = {p.x, e * p.y + d * p.z, -d * p.y + e * p.z};  // a corner on top, y = 0.1732
+    }
+    const float top = on_corner ? 0.17320508f : 0.14142136f;
+    Body body(turned);
+    // For the ridge the face's edges cross it, beside the ridge's own ends.
+    const float y = top - 0.003f;
+    const std::vector<Vec3> x = {{-0.3f, y, -0.05f}, {0.3f, y, -0.05f}, {0.0f, y, 0.3f}};
+    ContactCloth cloth(x, {{0, 2, 1}});
+    for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, x[i], x[i] + Vec3{0, 0.01f, 0});
+    body.touch(cloth, 20);
+    ASSERT_GT(cloth.row_count, 0u);
+    for (std::uint32_t c = 0; c < cloth.row_count; ++c) {
+      const ContactRow& row = cloth.rows[c];
+      EXPECT_GT(row.normal.y, 0.99f);
+      EXPECT_GT(dot(row.normal, contact_point(row, ConstVec3View(cloth.position.view()))), top + kThickness - 1e-4f);
+    }
+  }
+}
+
+TEST(MeshDetection, MovingBodyIsMetWhereItIsInTheSubstep) {
+  Body body(icosphere(3, 0.3f));
+  for (std::size_t i = 0; i < body.mesh.next.size(); ++i) {
+    body.mesh.next.view().add(i, {0, 0.04f, 0});
+  }
+  body.bodies.update_mesh(0, body.mesh);
+  ContactCloth cloth = speck({0, 0.315f, 0}, {0, 0.315f, 0});
+  Stats stats;
+  body.detection(cloth, 0.25f, 0.5f).run(stats);
+  ASSERT_GT(cloth.row_count, 0u);
+  const ContactRow& row = cloth.rows[0];
+  EXPECT_NEAR(length(row.body_step - Vec3{0, 0.01f, 0}), 0.0f, 1e-6f);
+  EXPECT_NEAR(row.offset, 0.3f + 0.02f + kThickness, 2e-3f);
+}
+
+TEST(MeshDetection, RowsStayFewOnAFineBody) {
+  Body body(icosphere(5, 0.3f));  // 20,480 triangles of 1 cm
+  std::vector<Vec3> x = {{-0.1f, 0.303f, -0.06f}, {0.1f, 0.303f, -0.06f}, {0, 0.303f, 0.12f}};
+  ContactCloth cloth(x, {{0, 2, 1}});
+  Stats stats;
+  body.detection(cloth).run(stats);
+  EXPECT_GE(cloth.row_count, 1u);
+  EXPECT_LE(cloth.row_count, 10u);
+}
+
+TEST(MeshDetection, DegenerateFeaturesMakeFiniteRows) {
+  BodyShape shape = box_shape({0.1f, 0.1f, 0.1f});
+  shape.triangles.push_back({0, 0, 1});
+  shape.triangles.push_back({2, 2, 2});
+  shape.positions[7] = shape.positions[6];  // folds two sides flat
+  Body body(shape);
+  ContactCloth cloth({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  for (const Vec3& at : shape.positions) {
+    for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, at, at);
+    body.touch(cloth);
+    for (std::uint32_t c = 0; c < cloth.row_count; ++c) {
+      EXPECT_NEAR(length(cloth.rows[c].normal), 1.0f, 1e-4f);
+      EXPECT_TRUE(std::isfinite(cloth.rows[c].offset));
+    }
+    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(is_finite(cloth.x(i)));
+  }
+}
+
+TEST(MeshDetection, DisabledBodiesAreNotMet) {
+  Body body(icosphere(2, 0.3f));
+  body.mesh.enabled = false;
+  ContactCloth cloth = speck({0, 0.3f, 0}, {0, 0.3f, 0});
+  Stats stats;
+  const MeshDetection system = body.detection(cloth);
+  EXPECT_TRUE(system.validate());
+  system.run(stats);
+  EXPECT_EQ(cloth.row_count, 0u);
+  MeshDetection bad = system;
+  bad.meshes = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = system;
+  bad.t1 = 1.5f;
+  EXPECT_FALSE(bad.validate());
+}
+
+}  // namespace
+}  // namespace pleat::test

@@ -1,0 +1,136 @@
+#include "systems/stretch_constraint.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/systems/sheet.h"
+
+namespace pleat {
+namespace {
+
+StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
+  return {.garment = &sheet.garment,
+          .inverse_mass = sheet.inverse_mass,
+          .limit = limit,
+          .position = sheet.position};
+}
+
+float worst_strain(const Sheet& sheet) {
+  const Garment& g = sheet.garment;
+  float worst = -1.0f;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const float l = length(sheet.position[g.edge_particle[1][e]] - sheet.position[g.edge_particle[0][e]]);
+    worst = std::max(worst, l / g.edge_rest_length[e] - 1.0f);
+  }
+  return worst;
+}
+
+TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
+  Sheet sheet(make_grid({.rows = 2, .columns = 2}));
+  const StretchConstraint good = job(sheet);
+  ASSERT_TRUE(good.validate());
+  StretchConstraint bad = good;
+  bad.garment = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.inverse_mass = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.position = {};
+  EXPECT_FALSE(bad.validate());
+  for (const float value : {-0.1f, kNan}) {
+    bad = good, bad.limit = value;
+    EXPECT_FALSE(bad.validate());
+  }
+}
+
+TEST(StretchConstraint, PassesConvergeToTheLimit) {
+  Sheet sheet(make_grid({.rows = 6, .columns = 6}));
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, sheet.position[i] * 1.2f);
+  Stats stats;
+  for (int pass = 0; pass < 400; ++pass) job(sheet, 0.01f).run(stats);
+  EXPECT_LT(worst_strain(sheet), 0.011f);
+  EXPECT_EQ(stats.edges_skipped, 0u);
+}
+
+TEST(StretchConstraint, OverlongEdgeComesToTheLimitExactly) {
+  Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -5}}, {{0, 1, 2}}});
+  sheet.position.set(0, {-0.5f, 0, 0});
+  sheet.position.set(2, {0.5f, 0, -4});  // slack
+  Stats stats;
+  job(sheet, 0.1f).run(stats);
+  EXPECT_FLOAT_EQ(sheet.position[1].x - sheet.position[0].x, 1.1f);
+}
+
+TEST(StretchConstraint, KeepsMomentum) {
+  Sheet sheet(make_grid({.rows = 6, .columns = 6}));
+  shake(sheet.position, sheet.count, 0.1f, 1);
+  for (std::uint32_t i = 0; i < sheet.count; i += 3) sheet.mass[i] *= 5.0f, sheet.inverse_mass[i] /= 5.0f;
+  Vec3d moved, turned;
+  double size = 0.0;
+  const Sheet before = [&] {
+    Sheet copy(make_grid({.rows = 6, .columns = 6}));
+    for (std::uint32_t i = 0; i < sheet.count; ++i) copy.position.set(i, sheet.position[i]);
+    return copy;
+  }();
+  Stats stats;
+  job(sheet).run(stats);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) {
+    const Vec3d shift = (wide(sheet.position[i]) - wide(before.position[i])) * static_cast<double>(sheet.mass[i]);
+    moved += shift;
+    size += length(shift);
+  }
+  EXPECT_GT(size, 1e-3);
+  EXPECT_LT(length(moved), 1e-5 * size);
+}
+
+TEST(StretchConstraint, SinglePullIsCentralAndKeepsAngularMomentum) {
+  Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -5}}, {{0, 1, 2}}});
+  sheet.inverse_mass[0] = 1.0f, sheet.inverse_mass[1] = 3.0f;
+  const Vec3 a{-1, 2, 0.5f}, b{0.7f, 2.4f, -1};
+  sheet.position.set(0, a);
+  sheet.position.set(1, b);
+  sheet.position.set(2, (a + b) * 0.5f);  // slack
+  Stats stats;
+  job(sheet).run(stats);
+  const Vec3 da = sheet.position[0] - a, db = sheet.position[1] - b;
+  EXPECT_LT(length(da * 3.0f + db), 1e-5f);
+  EXPECT_LT(length(cross(da, b - a)), 1e-5f);
+}
+
+TEST(StretchConstraint, PinsStayAndTheOtherEndTakesAll) {
+  const std::uint32_t pins[] = {0};
+  Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -5}}, {{0, 1, 2}}}, pins);
+  sheet.position.set(1, {2, 0, 0});
+  sheet.position.set(2, {0.5f, 0, -3});
+  Stats stats;
+  job(sheet, 0.0f).run(stats);
+  EXPECT_EQ(sheet.position[0], Vec3{});
+  EXPECT_FLOAT_EQ(sheet.position[1].x, 1.0f);
+
+  const std::uint32_t all[] = {0, 1, 2};
+  Sheet held({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -5}}, {{0, 1, 2}}}, all);
+  held.position.set(1, {9, 0, 0});
+  job(held).run(stats);
+  EXPECT_EQ(held.position[1], (Vec3{9, 0, 0}));
+}
+
+TEST(StretchConstraint, SlackEdgesAreLeftAlone) {
+  Sheet sheet(make_grid({.rows = 4, .columns = 4}));
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, sheet.position[i] * 0.7f);
+  shake(sheet.position, sheet.count, 0.01f, 5);
+  std::vector<Vec3> before;
+  for (std::uint32_t i = 0; i < sheet.count; ++i) before.push_back(sheet.position[i]);
+  Stats stats;
+  job(sheet).run(stats);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_EQ(sheet.position[i], before[i]);
+}
+
+TEST(StretchConstraint, CollapsedEdgesAreSkippedAndCounted) {
+  Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -1}}, {{0, 1, 2}}});
+  for (std::uint32_t i = 0; i < 3; ++i) sheet.position.set(i, {1, 1, 1});
+  Stats stats;
+  job(sheet).run(stats);
+  EXPECT_EQ(stats.edges_skipped, 3u);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(sheet.position[i], (Vec3{1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace pleat
