@@ -7,6 +7,7 @@
 #include "demo/program/progress.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
+#include "demo/view.h"
 
 namespace pleat::demo {
 namespace {
@@ -54,18 +55,6 @@ size_t segments_of_edge(const pleat_cloth_settings& settings) {
 
 }  // namespace
 
-Vector3d followed(const SceneDef& def, uint32_t frame) {
-  if (!def.motion) return Vector3d::Zero();
-  constexpr int kSamples = 9;
-  constexpr double kWindow = 0.8;  // s
-  Vector3d sum = Vector3d::Zero();
-  for (int i = 0; i < kSamples; ++i) {
-    const double time = double(frame) / def.rate + kWindow * (double(i) / (kSamples - 1) - 0.5);
-    sum += def.motion(std::max(0.0, time)).hips.translation();
-  }
-  return sum / kSamples - def.motion(0.0).hips.translation();
-}
-
 RunRecord measure(const pleat_api& api, const SceneDef& def) {
   StageClock clock;
   Scene scene(api, def, StageClock::on_stage, &clock);
@@ -89,14 +78,13 @@ RunRecord measure(const pleat_api& api, const SceneDef& def) {
     clock.begin_frame();
     scene.advance();
     clock.end_frame();
-    const Vector3d target = followed(def, frame);
+    record.seen.extend(cloth_box(scene));
     for (size_t k = 0; k < record.cloths; ++k) {
       read_vertices(scene, k, surfaces[k]);
       record.all_finite = record.all_finite && all_finite(surfaces[k]);
-      scene.read_particles(k, particles);
-      for (size_t i = 0; 3 * i < particles.size(); ++i) record.seen.extend(point(particles, i) - target);
-      if (k == 0) compression.add_frame(frame, particles);
     }
+    scene.read_particles(0, particles);
+    compression.add_frame(frame, particles);
     quality.add_frame(scene, surfaces);
     progress.step();
   }

@@ -22,14 +22,10 @@ struct RunRecord {
   bench::Quality quality;
   std::vector<StageClock::Stage> stages;
   uint32_t most_compressed_frame;  ///< 1 is the first; where short edges are shortest, all in all
-  Eigen::AlignedBox3d seen;        ///< all particles of all frames, relative to `followed`
+  Eigen::AlignedBox3d seen;        ///< all particles of all frames, relative to followed() of view.h
 };
 
 /// Runs a scene without drawing it, so that the costs are its own.
 RunRecord measure(const pleat_api& api, const SceneDef& def);
-
-/// Where a camera that moves with the body looks from frame to frame, relative to the first pose: the hips' path,
-/// averaged over 0.8 s.
-Eigen::Vector3d followed(const SceneDef& def, uint32_t frame);
 
 }  // namespace pleat::demo

@@ -29,7 +29,7 @@ float aspect(PictureSize size) { return float(size.width) / float(size.height); 
 
 void add_stick(const float from[3], const float to[3], uint32_t rgba, void* user) {
   static_cast<std::vector<Stick>*>(user)->push_back(
-      {Eigen::Vector3f(from[0], from[1], from[2]), Eigen::Vector3f(to[0], to[1], to[2]), rgba, 2.0f});
+      {Eigen::Vector3f(from[0], from[1], from[2]), Eigen::Vector3f(to[0], to[1], to[2]), rgba, 3.0f});
 }
 
 /// One of the pictures of stages.png: the scene runs again to the frame, with the surface that the picture shows.
@@ -68,7 +68,7 @@ class StagePainter {
     def.settings.surface = surface;
     Scene scene(api_, std::move(def));
     while (scene.frame() < record_.most_compressed_frame) scene.advance();
-    View view(scene, record_, aspect(size_));
+    View view(scene, cloth_box(scene), aspect(size_));
     return {shrink(renderer_.draw(compose(view, scene)), std::min(size_.width, kStagesWidth)), label};
   }
 
@@ -84,7 +84,7 @@ class StagePainter {
 void draw_frames(const pleat_api& api, const SceneDef& def, const RunRecord& record, PictureSize size,
                  const OutputFolder& out) {
   Scene scene(api, def);
-  View view(scene, record, aspect(size));
+  View view(scene, record.seen, aspect(size));
   Renderer renderer(size.width, size.height);
   std::optional<Video> video;
   if (ffmpeg_available()) video.emplace(out.part("video.mp4"), size.width, size.height, def.rate);
@@ -109,8 +109,7 @@ void draw_frames(const pleat_api& api, const SceneDef& def, const RunRecord& rec
 
 void draw_stages(const pleat_api& api, const SceneDef& def, const RunRecord& record, PictureSize size,
                  const OutputFolder& out) {
-  const bool curved = def.settings.surface == PLEAT_SURFACE_PAPER;
-  const uint32_t full = curved ? PLEAT_SURFACE_PAPER : PLEAT_SURFACE_PLEAT;
+  const uint32_t full = def.settings.surface == PLEAT_SURFACE_PAPER ? PLEAT_SURFACE_PAPER : PLEAT_SURFACE_PLEAT;
   StagePainter painter(api, def, record, size);
   const std::vector<Cell> cells = {painter.coarse(), painter.surface(PLEAT_SURFACE_PN, "curved (PN)"),
                                    painter.surface(full, "normal and edge length control"), painter.sticks(full)};

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and shows the component at work.
+# shellcheck source=demo/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
 if [[ ${1-} == --help || ${1-} == -h ]]; then
@@ -7,8 +8,8 @@ if [[ ${1-} == --help || ${1-} == -h ]]; then
 Usage: demo/run.sh [ARGUMENT...]
 
 Sets up Debian 12 or Ubuntu 24.04 and later (packages through apt-get, as root or with sudo), builds the preset
-\`release\`, and runs \`pleat run ARGUMENT...\`. Without arguments: a motion-captured kick in a skirt, pictures to
-out/kick. Examples:
+\`release\`, and runs \`pleat run ARGUMENT...\`. Without arguments: a kick in a skirt, with pictures in out/kick.
+Examples:
 
   demo/run.sh skirt_kick --rate 30 --out out/skirt_kick
   demo/run.sh kick --clip FILE.bvh --surface flat
@@ -18,7 +19,7 @@ HELP
   exit
 fi
 
-(build --target pleat_demo) # in a shell of its own: the program reads and writes where the user stands
+(build pleat_demo) # in a shell of its own: the program reads and writes where the user stands
 
 pleat=$root/build/release/bin/pleat
 if (($#)); then

@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 set -euo pipefail
 
-readonly packages=(cmake ninja-build g++ libeigen3-dev libbullet-dev libosmesa6-dev libpng-dev libcli11-dev
-                   nlohmann-json3-dev libgtest-dev libassimp-dev)
+packages=(cmake ninja-build g++ libeigen3-dev libbullet-dev libosmesa6-dev libpng-dev libcli11-dev
+          nlohmann-json3-dev libgtest-dev libassimp-dev)
 readonly least_cmake=3.25 # for the presets
 
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
@@ -61,10 +61,10 @@ install_missing() {
   fi
 }
 
-# Installs, configures and builds the preset `release`; arguments go to `cmake --build`.
+# Builds one target of the preset `release`, after all that it takes.
 build() {
   install_missing
   cd "$root"
   run cmake --preset release
-  run cmake --build --preset release "$@"
+  run cmake --build --preset release --target "$1"
 }

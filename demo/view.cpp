@@ -1,12 +1,11 @@
 #include "demo/view.h"
 
-#include <array>
+#include <algorithm>
 
 namespace pleat::demo {
 namespace {
 
 constexpr float kFieldOfView = 0.55f;  // rad
-constexpr double kMargin = 0.12;       // of the cloth's size, all around
 constexpr std::uint32_t kInk = 0x2b2b33ff;
 constexpr std::uint32_t kBody = 0xc9c3baff;
 
@@ -38,10 +37,33 @@ Capsule capsule_at(const CapsulePose& pose, const Eigen::Vector3f& origin) {
 
 }  // namespace
 
-View::View(const Scene& scene, const RunRecord& record, float aspect) {
-  const Eigen::Vector3d margin = kMargin * record.seen.sizes().cwiseMax(Eigen::Vector3d::Constant(0.1));
-  const Eigen::AlignedBox3f box((record.seen.min() - margin).cast<float>(), (record.seen.max() + margin).cast<float>());
-  camera_ = frame_box(box, scene.def().view.cast<float>(), kFieldOfView, aspect);
+Eigen::Vector3d followed(const SceneDef& def, uint32_t frame) {
+  if (!def.motion) return Eigen::Vector3d::Zero();
+  constexpr int kSamples = 9;
+  constexpr double kWindow = 0.8;  // s
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kSamples; ++i) {
+    const double time = double(frame) / def.rate + kWindow * (double(i) / (kSamples - 1) - 0.5);
+    sum += def.motion(std::max(0.0, time)).hips.translation();
+  }
+  return sum / kSamples - def.motion(0.0).hips.translation();
+}
+
+Eigen::AlignedBox3d cloth_box(const Scene& scene) {
+  const Eigen::Vector3d target = followed(scene.def(), scene.frame());
+  Eigen::AlignedBox3d box;
+  std::vector<float> particles;
+  for (size_t k = 0; k < scene.cloths().size(); ++k) {
+    scene.read_particles(k, particles);
+    for (size_t i = 0; i < particles.size(); i += 3) {
+      box.extend(Eigen::Vector3d(particles[i], particles[i + 1], particles[i + 2]) - target);
+    }
+  }
+  return box;
+}
+
+View::View(const Scene& scene, const Eigen::AlignedBox3d& box, float aspect) {
+  camera_ = frame_box(box.cast<float>(), scene.def().view.cast<float>(), kFieldOfView, aspect);
   for (const FixedBody& body : scene.def().fixed) {
     if (const auto* shape = std::get_if<TriangleMesh>(&body.shape)) {
       Mesh mesh = flat_mesh(shape->positions, shape->triangles);

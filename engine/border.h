@@ -60,7 +60,8 @@ inline void need_pointer(const char* name, const void* pointer) {
 }
 
 inline void need_range(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {  // also false for NaN
+  const float v = static_cast<float>(value);  // as floats, so that a host's own float of a limit is within it
+  if (!(v >= static_cast<float>(low) && v <= static_cast<float>(high))) {  // also false for NaN
     refuse(std::string(name) + " is " + text(value) + ", must be from " + text(low) + " to " + text(high));
   }
 }

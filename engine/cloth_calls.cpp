@@ -169,6 +169,7 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
       refresh(world, record);
     } catch (...) {
       set_cloth(world, record, old);
+      refresh(world, record);
       throw;
     }
   });

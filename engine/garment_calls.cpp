@@ -107,6 +107,23 @@ void need_pins(const std::uint32_t* pins, std::uint32_t count, std::uint32_t ver
   }
 }
 
+std::vector<std::array<std::uint32_t, 2>> read_seams(const pleat_garment_def& def) {
+  if (def.seam_count == 0) return {};
+  need_pointer("seams", def.seams);
+  need_range("seam_count", def.seam_count, 0, 3 * PLEAT_MAX_TRIANGLES);
+  std::vector<std::array<std::uint32_t, 2>> seams(def.seam_count);
+  for (std::uint32_t s = 0; s < def.seam_count; ++s) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      seams[s][k] = def.seams[2 * s + k];
+      if (seams[s][k] >= def.vertex_count) {
+        refuse("seams[" + std::to_string(s) + "][" + std::to_string(k) + "] is " + std::to_string(seams[s][k]) +
+               ", there are " + std::to_string(def.vertex_count) + " vertices");
+      }
+    }
+  }
+  return seams;
+}
+
 void write_report(const MeshReport& from, pleat_mesh_report* to) {
   if (to == nullptr) return;
   *to = {.degenerate_triangles = from.degenerate_triangles,
@@ -189,9 +206,7 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
         std::memcpy(&uvs[2 * i], reinterpret_cast<const char*>(def.uvs) + i * stride, 2 * sizeof(float));
       }
     }
-    if (def.seam_count != 0) need_pointer("seams", def.seams);
-    std::vector<std::array<std::uint32_t, 2>> seams(def.seam_count);
-    for (std::uint32_t s = 0; s < def.seam_count; ++s) seams[s] = {def.seams[2 * s], def.seams[2 * s + 1]};
+    const std::vector<std::array<std::uint32_t, 2>> seams = read_seams(def);
 
     const MeshReport found = check_and_repair(positions, triangles);
     write_report(found, report);

@@ -26,13 +26,19 @@ Plan plan_of(const World& world, const ClothRecord& cloth) {
   return plan;
 }
 
+/// All columns get the size, or, where memory runs out, none.
+template <class... Columns>
+void resize_together(std::size_t size, Columns&... columns) {
+  (columns.reserve(size), ...);
+  (columns.resize(size), ...);
+}
+
 /// Makes room for columns that only some settings use, and for the scratch of a tick.
 void make_room(World& world, const ClothRecord& cloth) {
   const std::size_t particles = world.particles.mass.size();
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
-    world.runge_kutta.start_velocity.resize(particles);
-    world.runge_kutta.position_slope.resize(particles);
-    world.runge_kutta.velocity_slope.resize(particles);
+    resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
+                    world.runge_kutta.velocity_slope);
   }
   const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
   if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(particles);
@@ -40,8 +46,7 @@ void make_room(World& world, const ClothRecord& cloth) {
   if (folded || world.surface.fold.size() != 0) {
     std::size_t edges = 0;
     for (const ClothRecord& other : world.clothes) edges += padded(other.garment().edge_count);
-    world.surface.fold.resize(edges);
-    world.surface.fold_height.resize(edges);
+    resize_together(edges, world.surface.fold, world.surface.fold_height);
   }
   if (!world.colliders.empty()) {
     const Garment& g = cloth.garment();

@@ -50,6 +50,8 @@ std::uint32_t drawn_range(const ClothRecord& cloth) {
 }
 
 void resize_drawn(World& world, std::size_t size) {
+  world.drawn.position.reserve(size);
+  world.drawn.normal.reserve(size);
   world.drawn.position.resize(size);
   world.drawn.normal.resize(size);
 }
@@ -80,8 +82,10 @@ void point_at_meshes(World& world) {
 }
 #endif
 
-void erase_if_present(Vec3Column& column, std::size_t begin, std::size_t count) {
-  if (column.size() != 0) column.erase(begin, count);
+/// For columns that only some scenes have, or that had no room for their last cloth yet.
+template <class AnyColumn>
+void erase_if_present(AnyColumn& column, std::size_t begin, std::size_t count) {
+  if (column.size() > begin) column.erase(begin, count);
 }
 
 }  // namespace
@@ -121,7 +125,9 @@ void World::log(std::uint32_t level, const std::string& line) const {
 Handle add_garment(World& world, Garment&& garment) {
   world.garment_handles.reserve_one();
   std::pmr::polymorphic_allocator<> allocator(&world.memory);
-  world.garments.emplace_back(allocator.new_object<GarmentRecord>(std::move(garment)), MemoryDelete{&world.memory});
+  std::unique_ptr<GarmentRecord, MemoryDelete> record(allocator.new_object<GarmentRecord>(std::move(garment)),
+                                                      MemoryDelete{&world.memory});
+  world.garments.push_back(std::move(record));
   return world.garment_handles.add();
 }
 
@@ -194,7 +200,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   world.pin_previous.erase(cloth.pin_begin, pins);
   world.pin_next.erase(cloth.pin_begin, pins);
   erase_if_present(world.surface.fold, cloth.edge_begin, edges);
-  if (world.surface.fold_height.size() != 0) world.surface.fold_height.erase(cloth.edge_begin, edges);
+  erase_if_present(world.surface.fold_height, cloth.edge_begin, edges);
   close_drawn_gap(world, cloth);
 
   world.clothes.erase(world.clothes.begin() + position);

@@ -40,8 +40,7 @@ pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
     need_range("max_substep", def.max_substep, 1e-5, 1.0);
     if ((def.allocate == nullptr) != (def.free == nullptr)) refuse("allocate and free must both be given, or neither");
     HostMemory memory(def.allocate, def.free, def.memory_user);
-    void* place = static_cast<std::pmr::memory_resource&>(memory).allocate(sizeof(World), alignof(World));
-    *world = reinterpret_cast<pleat_world*>(new (place) World(def));
+    *world = reinterpret_cast<pleat_world*>(std::pmr::polymorphic_allocator<>(&memory).new_object<World>(def));
   });
 }
 
@@ -49,8 +48,7 @@ void world_destroy(pleat_world* handle) {
   if (handle == nullptr) return;
   World* world = reinterpret_cast<World*>(handle);
   HostMemory memory(world->def.allocate, world->def.free, world->def.memory_user);
-  world->~World();
-  static_cast<std::pmr::memory_resource&>(memory).deallocate(world, sizeof(World), alignof(World));
+  std::pmr::polymorphic_allocator<>(&memory).delete_object(world);
 }
 
 pleat_result world_step(pleat_world* handle, float dt) {

@@ -37,8 +37,6 @@ struct MeshTest {
   Stats& stats;
   float friction = pose.mesh.friction;
   float reach = in.thickness + margin;
-  // Between the ends of so short a ridge, which the faces are kept from, an edge sinks in by less than the thickness.
-  float short_ridge = 3.0f * in.thickness;
   // Particles that start deep are looked for once a tick only.
   float search = in.t0 == 0.0f ? std::max(reach, kMeshDepth) : reach;
 
@@ -98,8 +96,7 @@ struct MeshTest {
     if (low > reach || high < -reach) return;
     for (int k = 0; k < 3; ++k) {
       if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k], body);
-      const Vec3 along = body[(k + 1) % 3] - body[k];
-      if (!pose.topology.owns_edge(t, k) || dot(along, along) < short_ridge * short_ridge) continue;
+      if (!pose.topology.owns_edge(t, k)) continue;
       for (int c = 0; c < 3; ++c) {
         if (f.owns_edge[c]) test_edges(f, c, t, body, k);
       }

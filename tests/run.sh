@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and passes the tests.
+# shellcheck source=demo/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../demo/setup.sh"
 
 if [[ ${1-} == --help || ${1-} == -h ]]; then
@@ -15,5 +16,5 @@ HELP
   exit
 fi
 
-build
+build all
 run ctest --preset release --parallel "$(nproc)" "$@"

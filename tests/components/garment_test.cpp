@@ -83,9 +83,9 @@ TEST(Garment, AreaIsSharedOutInThirds) {
   const Garment g = garment_of(make_grid({.rows = 4, .columns = 4, .width = 3.0f, .depth = 6.0f}));
   EXPECT_FLOAT_EQ(g.area, 18.0f);
   for (std::uint32_t f = 0; f < g.face_count; ++f) EXPECT_FLOAT_EQ(g.face_rest_area[f], 1.0f);
-  EXPECT_FLOAT_EQ(g.particle_area[0], 2.0f / 3.0f);   // two faces meet in the corner
-  EXPECT_FLOAT_EQ(g.particle_area[3], 1.0f / 3.0f);   // one
-  EXPECT_FLOAT_EQ(g.particle_area[5], 2.0f);          // six
+  EXPECT_FLOAT_EQ(g.particle_area[0], 2.0f / 3.0f);  // two faces meet in the corner
+  EXPECT_FLOAT_EQ(g.particle_area[3], 1.0f / 3.0f);  // one
+  EXPECT_FLOAT_EQ(g.particle_area[5], 2.0f);         // six
   float sum = 0.0f;
   for (const float a : g.particle_area) sum += a;
   EXPECT_FLOAT_EQ(sum, g.area);
@@ -168,7 +168,8 @@ TEST(Garment, EquilateralSheetOnACylinderHasThePlatesEnergy) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = 0; j < n; ++j) {
-      const float u = edge * (static_cast<float>(j) + 0.5f * static_cast<float>(i % 2)), v = height * static_cast<float>(i);
+      const float u = edge * (static_cast<float>(j) + 0.5f * static_cast<float>(i % 2)),
+                  v = height * static_cast<float>(i);
       mesh.positions.push_back({radius * std::sin(u / radius), radius * std::cos(u / radius), v});
       if (i + 1 == n || j + 1 == n) continue;
       const std::uint32_t a = i * n + j, b = a + 1, c = a + n, d = c + 1;

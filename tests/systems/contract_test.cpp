@@ -57,14 +57,16 @@ const Case kCases[] = {
      [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, 30.0f, kDt, s.force}.run(); },
      {"force"}},
     {"HingeBending",
-     [](Sheet& s) {
-       HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, s.force}.run();
-     },
+     [](Sheet& s) { HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, s.force}.run(); },
      {"force"}},
     {"EdgeDamping",
      [](Sheet& s) { EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, kDt, s.force}.run(); },
      {"force"}},
-    {"Gravity", [](Sheet& s) { Gravity{s.count, s.mass, {0, -9.81f, 0}, s.force}.run(); }, {"force"}},
+    {"Gravity",
+     [](Sheet& s) {
+       Gravity{s.count, s.mass, {0, -9.81f, 0}, s.force}.run();
+     },
+     {"force"}},
     {"AirDamping", [](Sheet& s) { AirDamping{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); }, {"force"}},
     {"AirDrag",
      [](Sheet& s) {
@@ -99,9 +101,11 @@ std::vector<Snapshot> snapshot(const Sheet& sheet) {
     all.back().values.insert(all.back().values.end(), data, data + padded(sheet.count));
   };
   const ParticleColumns& p = sheet.particles;
-  const std::pair<const char*, const Vec3Column*> vectors[] = {
-      {"position", &p.position}, {"velocity", &p.velocity}, {"force", &p.force}, {"previous", &p.previous},
-      {"predicted", &p.predicted}};
+  const std::pair<const char*, const Vec3Column*> vectors[] = {{"position", &p.position},
+                                                               {"velocity", &p.velocity},
+                                                               {"force", &p.force},
+                                                               {"previous", &p.previous},
+                                                               {"predicted", &p.predicted}};
   for (const auto& [name, column] : vectors) {
     add(name, column->x.data()), add(name, column->y.data()), add(name, column->z.data());
   }

@@ -94,7 +94,8 @@ TEST(EdgeDamping, NeverAddsEnergyAtAnyRate) {
   for (int step = 0; step < 50; ++step) {
     sheet.clear_force();
     job(sheet, 1e6f).run();
-    for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.velocity.add(i, sheet.force[i] * sheet.inverse_mass[i] * (1.0f / 60));
+    for (std::uint32_t i = 0; i < sheet.count; ++i)
+      sheet.velocity.add(i, sheet.force[i] * sheet.inverse_mass[i] * (1.0f / 60));
     const double now = kinetic_energy(sheet);
     EXPECT_LE(now, energy * (1.0 + 1e-6));
     energy = now;

@@ -144,7 +144,8 @@ TEST(ElasticForce, KeepsSymplecticStepsBoundedAtAnyStiffness) {
     }
   }
   for (std::uint32_t e = 0; e < sheet.garment.edge_count; ++e) {
-    const Vec3 d = sheet.position[sheet.garment.edge_particle[1][e]] - sheet.position[sheet.garment.edge_particle[0][e]];
+    const Vec3 d =
+        sheet.position[sheet.garment.edge_particle[1][e]] - sheet.position[sheet.garment.edge_particle[0][e]];
     EXPECT_NEAR(length(d) / sheet.garment.edge_rest_length[e], 1.0f, 0.05f) << e;
   }
 }

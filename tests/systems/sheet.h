@@ -28,8 +28,8 @@ struct Sheet {
       : garment(build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource())),
         particles(std::pmr::new_delete_resource()),
         count(garment.particle_count) {
-    for (Vec3Column* column : {&particles.position, &particles.velocity, &particles.force, &particles.previous,
-                               &particles.predicted}) {
+    for (Vec3Column* column :
+         {&particles.position, &particles.velocity, &particles.force, &particles.previous, &particles.predicted}) {
       column->resize(count);
     }
     particles.inverse_mass.resize(count);

@@ -8,10 +8,7 @@ namespace pleat {
 namespace {
 
 StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
-  return {.garment = &sheet.garment,
-          .inverse_mass = sheet.inverse_mass,
-          .limit = limit,
-          .position = sheet.position};
+  return {.garment = &sheet.garment, .inverse_mass = sheet.inverse_mass, .limit = limit, .position = sheet.position};
 }
 
 float worst_strain(const Sheet& sheet) {

@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "tests/abi/host.h"
+
+namespace pleat::abi {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+
+class Cloth : public Host {
+ protected:
+  pleat_cloth_settings settings() {
+    pleat_cloth_settings s{};
+    s.size = sizeof s;
+    EXPECT_EQ(api().cloth_get(world, cloth, &s), pleat_result{PLEAT_OK});
+    return s;
+  }
+  pleat_cloth_def def() {
+    pleat_cloth_def d = made(api().cloth_def_init);
+    d.garment = garment;
+    return d;
+  }
+};
+
+TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
+  const auto refused = [&](const char* name, auto field, auto value) {
+    pleat_cloth_settings s = settings();
+    s.*field = value;
+    expect_refused(PLEAT_ERROR_ARGUMENT, name, [&] { return api().cloth_set(world, cloth, &s); });
+    pleat_cloth_def d = def();
+    d.settings.*field = value;
+    pleat_cloth out{};
+    expect_refused(PLEAT_ERROR_ARGUMENT, name, [&] { return api().cloth_create(world, &d, &out); });
+  };
+  using S = pleat_cloth_settings;
+  refused("integrator", &S::integrator, 3u);
+  refused("substeps", &S::substeps, 65u);
+  refused("sweeps", &S::sweeps, 0u);
+  refused("sweeps", &S::sweeps, 65u);
+  refused("face_response", &S::face_response, 2u);
+  refused("surface", &S::surface, 4u);
+  refused("level", &S::level, PLEAT_LEVEL_MAX + 1);
+  const std::pair<const char*, float S::*> floats[] = {{"density", &S::density},
+                                                       {"stiffness", &S::stiffness},
+                                                       {"stretch_limit", &S::stretch_limit},
+                                                       {"bend_stiffness", &S::bend_stiffness},
+                                                       {"edge_damping", &S::edge_damping},
+                                                       {"bend_damping", &S::bend_damping},
+                                                       {"air_damping", &S::air_damping},
+                                                       {"drag_coefficient", &S::drag_coefficient},
+                                                       {"thickness", &S::thickness},
+                                                       {"friction", &S::friction}};
+  for (const auto& [name, field] : floats) {
+    for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
+  }
+  refused("density", &S::density, 0.0f);
+}
+
+TEST_F(Cloth, StructSizesAreChecked) {
+  pleat_cloth_settings s = settings();
+  for (const std::uint32_t size : {0u, 3u, static_cast<std::uint32_t>(sizeof s) + 1}) {
+    s.size = size;
+    expect_refused(PLEAT_ERROR_ARGUMENT, "size", [&] { return api().cloth_set(world, cloth, &s); });
+    expect_refused(PLEAT_ERROR_ARGUMENT, "size", [&] { return api().cloth_get(world, cloth, &s); });
+  }
+  pleat_cloth_def d = def();
+  d.size = sizeof d + 1;
+  pleat_cloth out{};
+  expect_refused(PLEAT_ERROR_ARGUMENT, "size", [&] { return api().cloth_create(world, &d, &out); });
+}
+
+TEST_F(Cloth, OlderSmallerStructsWork) {
+  pleat_cloth_settings s = settings();
+  s.size = offsetof(pleat_cloth_settings, stiffness);
+  s.density = 0.5f;
+  s.friction = kNan;  // beyond what this host knows
+  ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
+  EXPECT_EQ(settings().density, 0.5f);
+  EXPECT_EQ(settings().friction, 0.2f);
+  ASSERT_EQ(api().cloth_get(world, cloth, &s), pleat_result{PLEAT_OK});
+  EXPECT_EQ(s.size, offsetof(pleat_cloth_settings, stiffness));
+  EXPECT_TRUE(std::isnan(s.friction));
+
+  pleat_cloth_def d = def();
+  d.size = offsetof(pleat_cloth_def, settings);
+  d.settings.density = kNan;
+  pleat_cloth out{};
+  EXPECT_EQ(api().cloth_create(world, &d, &out), pleat_result{PLEAT_OK});
+}
+
+TEST_F(Cloth, CreateChecksItsInput) {
+  pleat_cloth out{};
+  pleat_cloth_def d = def();
+  expect_refused(PLEAT_ERROR_ARGUMENT, "def", [&] { return api().cloth_create(world, nullptr, &out); });
+  expect_refused(PLEAT_ERROR_ARGUMENT, "cloth", [&] { return api().cloth_create(world, &d, nullptr); });
+  d.garment.generation += 1;
+  expect_refused(PLEAT_ERROR_HANDLE, "garment", [&] { return api().cloth_create(world, &d, &out); });
+  std::vector<float> start = square.positions;
+  start[5] = kNan;
+  d = def(), d.positions = start.data();
+  expect_refused(PLEAT_ERROR_ARGUMENT, "positions[1][2]", [&] { return api().cloth_create(world, &d, &out); });
+  d.position_stride = 8;
+  expect_refused(PLEAT_ERROR_ARGUMENT, "stride", [&] { return api().cloth_create(world, &d, &out); });
+}
+
+TEST_F(Cloth, HandlesThatNameNothingAreRefusedEverywhere) {
+  pleat_cloth_settings s = settings();
+  pleat_cloth_info info{};
+  float buffer[512];
+  std::uint32_t indices[2048];
+  const pleat_vertex_target target{buffer, 12, 40, 0, PLEAT_NO_ATTRIBUTE, PLEAT_NO_ATTRIBUTE};
+  pleat_cloth_def d = def();
+  pleat_cloth gone{};
+  ASSERT_EQ(api().cloth_create(world, &d, &gone), pleat_result{PLEAT_OK});
+  ASSERT_EQ(api().cloth_destroy(world, gone), pleat_result{PLEAT_OK});
+  for (const pleat_cloth bad : {pleat_cloth{0, 0}, pleat_cloth{99, 1}, pleat_cloth{cloth.index, 2}, gone}) {
+    const auto refused = [&](auto call) { expect_refused(PLEAT_ERROR_HANDLE, "cloth", call); };
+    refused([&] { return api().cloth_destroy(world, bad); });
+    refused([&] { return api().cloth_get(world, bad, &s); });
+    refused([&] { return api().cloth_set(world, bad, &s); });
+    refused([&] { return api().cloth_info(world, bad, &info); });
+    refused([&] { return api().cloth_move_pins(world, bad, buffer, 0, 2); });
+    refused([&] { return api().cloth_read_particles(world, bad, buffer, nullptr, 9); });
+    refused([&] { return api().cloth_write_particles(world, bad, buffer, nullptr, 9); });
+    refused([&] { return api().cloth_read_vertices(world, bad, &target); });
+    refused([&] { return api().cloth_read_indices(world, bad, indices, 2048); });
+  }
+}
+
+TEST_F(Cloth, PinsAndParticlesAreChecked) {
+  std::vector<float> x(27, 0.0f), bad(27, 0.0f);
+  bad[4] = kNan;
+  const auto refused = [&](const char* field, auto call) { expect_refused(PLEAT_ERROR_ARGUMENT, field, call); };
+  refused("count", [&] { return api().cloth_move_pins(world, cloth, x.data(), 0, 1); });
+  refused("positions", [&] { return api().cloth_move_pins(world, cloth, nullptr, 0, 2); });
+  refused("stride", [&] { return api().cloth_move_pins(world, cloth, x.data(), 4, 2); });
+  refused("positions[1][1]", [&] { return api().cloth_move_pins(world, cloth, bad.data(), 0, 2); });
+  refused("count", [&] { return api().cloth_write_particles(world, cloth, x.data(), nullptr, 8); });
+  refused("positions", [&] { return api().cloth_write_particles(world, cloth, nullptr, nullptr, 9); });
+  refused("positions[1][1]", [&] { return api().cloth_write_particles(world, cloth, bad.data(), nullptr, 9); });
+  refused("velocities[1][1]", [&] { return api().cloth_write_particles(world, cloth, x.data(), bad.data(), 9); });
+  expect_refused(PLEAT_ERROR_CAPACITY, "capacity",
+                 [&] { return api().cloth_read_particles(world, cloth, x.data(), nullptr, 8); });
+}
+
+TEST_F(Cloth, VertexTargetIsChecked) {
+  pleat_cloth_info info{};
+  ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
+  std::vector<float> buffer(8 * info.drawn_vertices, -9.0f);
+  const pleat_vertex_target good{buffer.data(), 32, info.drawn_vertices, 0, 12, 24};
+  const auto refused = [&](pleat_result result, const char* field, const pleat_vertex_target& target) {
+    const std::vector<float> before = buffer;
+    expect_refused(result, field, [&] { return api().cloth_read_vertices(world, cloth, &target); });
+    EXPECT_EQ(buffer, before);
+  };
+  expect_refused(PLEAT_ERROR_ARGUMENT, "target", [&] { return api().cloth_read_vertices(world, cloth, nullptr); });
+  pleat_vertex_target bad = good;
+  bad.data = nullptr;
+  refused(PLEAT_ERROR_ARGUMENT, "target.data", bad);
+  bad = good, bad.capacity -= 1;
+  refused(PLEAT_ERROR_CAPACITY, "target.capacity", bad);
+  bad = good, bad.stride = 28;
+  refused(PLEAT_ERROR_ARGUMENT, "target.uv_offset", bad);
+  bad = good, bad.position_offset = 24;
+  refused(PLEAT_ERROR_ARGUMENT, "target.position_offset", bad);
+  bad = good, bad.normal_offset = 0xfffffff0u;
+  refused(PLEAT_ERROR_ARGUMENT, "target.normal_offset", bad);
+  ASSERT_EQ(api().cloth_read_vertices(world, cloth, &good), pleat_result{PLEAT_OK});
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(buffer[8 * i + 6], square.uvs[2 * i]);
+
+  bad = good, bad.normal_offset = bad.uv_offset = PLEAT_NO_ATTRIBUTE;
+  std::fill(buffer.begin(), buffer.end(), -9.0f);
+  ASSERT_EQ(api().cloth_read_vertices(world, cloth, &bad), pleat_result{PLEAT_OK});
+  for (std::size_t i = 0; i < buffer.size(); ++i) EXPECT_EQ(buffer[i] == -9.0f, i % 8 >= 3) << i;
+}
+
+TEST_F(Cloth, IndicesStayWithinTheDrawnVerticesAtEachLevel) {
+  for (std::uint32_t level = 0; level <= PLEAT_LEVEL_MAX; ++level) {
+    pleat_cloth_settings s = settings();
+    s.level = level;
+    ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
+    pleat_cloth_info info{};
+    ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
+    if (api().features & PLEAT_FEATURE_SMOOTHING) {
+      EXPECT_EQ(info.drawn_triangles, 8 * (level == 0 ? 18 : 4 * level * level));
+    }
+    std::vector<std::uint32_t> indices(3 * info.drawn_triangles);
+    const auto count = static_cast<std::uint32_t>(indices.size());
+    expect_refused(PLEAT_ERROR_CAPACITY, "capacity",
+                   [&] { return api().cloth_read_indices(world, cloth, indices.data(), count - 1); });
+    expect_refused(PLEAT_ERROR_ARGUMENT, "indices",
+                   [&] { return api().cloth_read_indices(world, cloth, nullptr, count); });
+    ASSERT_EQ(api().cloth_read_indices(world, cloth, indices.data(), count), pleat_result{PLEAT_OK});
+    for (const std::uint32_t i : indices) EXPECT_LT(i, info.drawn_vertices);
+  }
+}
+
+TEST_F(Cloth, WithoutSmoothingACurvedSurfaceIsNamed) {
+  if (api().features & PLEAT_FEATURE_SMOOTHING) GTEST_SKIP() << "smoothing is compiled in";
+  pleat_cloth_settings s = settings();
+  s.surface = PLEAT_SURFACE_PN;
+  expect_refused(PLEAT_ERROR_NOT_COMPILED, "PLEAT_SMOOTHING", [&] { return api().cloth_set(world, cloth, &s); });
+}
+
+}  // namespace
+}  // namespace pleat::abi

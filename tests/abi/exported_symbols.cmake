@@ -1,0 +1,10 @@
+# Fails unless the shared library exports pleat_get_api and nothing else.
+execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE lines RESULT_VARIABLE result)
+if(result)
+  message(FATAL_ERROR "${NM} failed on ${LIBRARY}")
+endif()
+string(REGEX REPLACE "[0-9a-f]* [A-Za-z] ([^\n]+)" "\\1" symbols "${lines}")
+string(STRIP "${symbols}" symbols)
+if(NOT symbols STREQUAL "pleat_get_api")
+  message(FATAL_ERROR "exported symbols are not just pleat_get_api:\n${symbols}")
+endif()

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Runs the program `pleat` as a user would, mostly wrongly: cli_test.sh PATH_OF_PLEAT
+# Each mistake must end with status 2, a line on stderr that names the place, and nothing left behind.
+set -u
+pleat=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+
+# refused TEXT COMMAND...: status 2, TEXT on stderr, no new file or folder.
+refused() {
+  local text=$1 before status
+  shift
+  before=$(find . | sort)
+  "$pleat" "$@" >/dev/null 2>"$work.stderr"
+  status=$?
+  [ "$status" -eq 2 ] || fail "pleat $*: status $status, expected 2"
+  grep -qF -- "$text" "$work.stderr" || fail "pleat $*: does not say \`$text\` but: $(cat "$work.stderr")"
+  [ "$(find . | sort)" = "$before" ] || fail "pleat $*: left something behind: $(find . | sort)"
+  rm -f "$work.stderr"
+}
+
+# accepted COMMAND...: status 0; what it printed is in $output.
+accepted() {
+  output=$("$pleat" "$@") || fail "pleat $*: status $?"
+}
+
+garment='"garment": {"grid": {"rows": 3, "columns": 3}}'
+echo "{$garment, \"gravitas\": 1}" >unknown_key.json
+echo "{$garment, \"rate\": " >truncated.json
+echo '{"garment": {"grid": {"rows": 0, "columns": 3}}}' >nothing.json
+echo '{"garment": {"grid": {"rows": 2000, "columns": 2500}}}' >ten_million.json
+echo '{"garment": {"obj": {"file": "empty.obj"}}}' >empty_garment.json
+echo "{$garment, \"settings\": {\"density\": -1}}" >bad_density.json
+: >empty.obj
+printf 'HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n' >truncated.bvh
+echo text >file
+mkdir earlier && echo kept >earlier/frame_0000.png
+
+refused 'no such scene' run no_such_scene
+refused 'unknown key' run unknown_key.json
+refused 'truncated.json:2' run truncated.json
+refused '/garment/grid/rows' run nothing.json
+refused 'too large' run ten_million.json
+refused 'empty.obj' run empty_garment.json
+refused 'density' run bad_density.json
+refused 'truncated.bvh' run --clip truncated.bvh
+refused 'none.bvh' run --clip none.bvh
+refused 'hanging_square:x' run hanging_square:x
+refused 'file/out' run hanging_square:3 --frames 2 --out file/out
+refused 'none/report.json' run hanging_square:3 --frames 2 --no-render --json none/report.json
+refused 'stiffnes' run hanging_square:3 --set stiffnes=3 --out earlier
+refused 'should be a number' run hanging_square:3 --set stiffness=nan
+refused 'key=value' run hanging_square:3 --set stiffness
+refused 'silk' run hanging_square:3 --surface silk
+refused 'cannot be' run hanging_square:3 --level 9
+refused '--size' run hanging_square:3 --size 12
+refused '--rate' run hanging_square:3 --rate 0
+refused '--frames' run hanging_square:3 --frames -1
+refused '--nonsense' run --nonsense
+refused 'subcommand' nothing
+refused 'no such scene' explain no_such_scene
+[ "$(cat earlier/frame_0000.png)" = kept ] || fail 'an earlier result was touched'
+
+accepted --help
+accepted run --help
+accepted list
+for word in skirt_kick pleat symplectic-euler stiffness; do
+  [[ $output == *"$word"* ]] || fail "list does not name $word"
+done
+accepted explain hanging_square:3
+[[ $output == *'left out: '* && $output == *' run'* ]] || fail 'explain gives no reasons'
+
+accepted run hanging_square:4 --frames 14 --size 64x48 --out made/here --json report.json
+for file in frame_0000.png frame_0013.png sheet.png; do
+  [ -s "made/here/$file" ] || fail "$file was not written"
+done
+[ -z "$(find made -name '.*')" ] || fail 'a temporary folder was left'
+for key in '"all_finite": true' '"watertight": true' '"particles": 16' '"frames": 14' stages_us quality; do
+  grep -qF "$key" report.json || fail "the report lacks $key"
+done
+
+# A shorter run replaces a longer one; a setting reaches the engine; the picture can be left out.
+accepted run hanging_square:4 --frames 2 --size 64x48 --out made/here
+[ ! -e made/here/frame_0013.png ] || fail 'frames of an earlier run were left'
+accepted run hanging_square:4 --frames 2 --level 3 --no-render --json report.json
+grep -qF '"drawn_triangles": 648' report.json || fail '--level 3 should draw 18 * 36 triangles'
+
+if [ "$failures" -gt 0 ]; then
+  echo "$failures checks failed" >&2
+  exit 1
+fi
+echo 'all passed'

@@ -1,0 +1,197 @@
+#include "engine/schedule.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/schedule_table.h"
+#include "tests/engine/scene.h"
+
+namespace pleat {
+namespace {
+
+bool runs(const std::string& line) { return line.ends_with(" run"); }
+
+TEST(Schedule, ExplainHasALineForEachSystemInOrder) {
+  Scene scene;
+  std::vector<std::string> lines;
+  must(call::world_explain(
+      scene, [](const char* line, void* user) { static_cast<std::vector<std::string>*>(user)->push_back(line); },
+      &lines));
+  ASSERT_GE(lines.size(), schedule_table().size());
+  for (std::size_t r = 0; r < schedule_table().size(); ++r) {
+    EXPECT_TRUE(lines[r].starts_with(std::string(schedule_table()[r].name) + " ")) << lines[r];
+    EXPECT_NE(lines[r].find("left out: no cloth"), std::string::npos) << lines[r];
+  }
+}
+
+TEST(Schedule, PhasesOfTheTableNeverGoBack) {
+  for (std::size_t r = 1; r < schedule_table().size(); ++r) {
+    EXPECT_LE(schedule_table()[r - 1].phase, schedule_table()[r].phase) << schedule_table()[r].name;
+  }
+}
+
+TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(4));
+  for (const char* name : {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping",
+                           "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
+    EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
+  }
+  EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient is 0"));
+  EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: integrates by Euler"));
+
+  pleat_cloth_settings s = scene.settings(cloth);
+  s.stiffness = s.bend_stiffness = s.bend_damping = s.edge_damping = s.air_damping = 0.0f;
+  s.stretch_limit = 1.0f;
+  s.drag_coefficient = 1.0f;
+  s.surface = PLEAT_SURFACE_FLAT;
+  must(call::cloth_set(scene, cloth, &s));
+  EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: stiffness is 0"));
+  EXPECT_TRUE(scene.explain("hinge_bending").ends_with("left out: bend_stiffness is 0"));
+  EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
+  EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
+  EXPECT_TRUE(scene.explain("stretch_constraint").ends_with("left out: stretch_limit is 1 or more"));
+  EXPECT_TRUE(runs(scene.explain("air_drag")));
+#ifdef PLEAT_WITH_SMOOTHING
+  EXPECT_TRUE(scene.explain("particle_normals").ends_with("left out: flat surface"));
+#endif
+}
+
+TEST(Schedule, TellsHowManyClothsRunASystem) {
+  Scene scene;
+  const pleat_garment sheet = scene.sheet(3);
+  pleat_cloth_settings s = Scene::default_settings();
+  scene.cloth(sheet, s);
+  s.stiffness = 0.0f;
+  scene.cloth(sheet, s);
+  EXPECT_TRUE(scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
+      << scene.explain("elastic_force");
+}
+
+TEST(Schedule, GravityIsPlannedAnewWhenItChanges) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(3));
+  const float none[3] = {0, 0, 0}, side[3] = {5, 0, 0};
+  must(call::world_set_gravity(scene, none));
+  EXPECT_TRUE(scene.explain("gravity").ends_with("left out: gravity is 0"));
+  const std::vector<float> before = scene.particles(cloth);
+  scene.step();
+  EXPECT_TRUE(same_bits(scene.particles(cloth), before));
+  must(call::world_set_gravity(scene, side));
+  scene.step();
+  EXPECT_FALSE(same_bits(scene.particles(cloth), before));
+}
+
+#ifdef PLEAT_WITH_COLLISION
+TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
+  Scene scene;
+  scene.cloth(scene.sheet(8));
+  scene.step(3);
+  for (const char* name : {"contact_acceleration", "collider_motion", "capsule_detection", "mesh_detection",
+                           "collision_response", "contact_friction", "collision_last_word", "contact_velocity"}) {
+    EXPECT_TRUE(scene.explain(name).ends_with("left out: no collider")) << scene.explain(name);
+  }
+  World& world = scene.inside();
+  EXPECT_EQ(world.contacts.size(), 0u);
+  EXPECT_EQ(world.capsule_poses.size(), 0u);
+  EXPECT_EQ(world.detection_scratch.size(), 0u);
+  EXPECT_EQ(world.bodies, nullptr);
+}
+
+TEST(Schedule, CollidersArePlannedAnewWhenTheyComeAndGo) {
+  Scene scene;
+  scene.cloth(scene.sheet(4));
+  const pleat_collider sphere = scene.sphere(0, -1, 0, 0.2f);
+  EXPECT_TRUE(runs(scene.explain("capsule_detection")));
+  EXPECT_TRUE(runs(scene.explain("collision_response")));
+  EXPECT_TRUE(scene.explain("mesh_detection").ends_with("left out: no mesh body"));
+  EXPECT_GT(scene.inside().contacts.size(), 0u);
+  scene.step();
+  must(call::collider_destroy(scene, sphere));
+  EXPECT_TRUE(scene.explain("capsule_detection").ends_with("left out: no collider"));
+  EXPECT_EQ(scene.inside().bodies, nullptr);
+  scene.step();
+}
+#endif
+
+TEST(Schedule, RungeKuttaColumnsExistOnlyWhereAskedFor) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(4));
+  scene.step();
+  EXPECT_EQ(scene.inside().runge_kutta.start_velocity.size(), 0u);
+  pleat_cloth_settings s = scene.settings(cloth);
+  s.integrator = PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
+  must(call::cloth_set(scene, cloth, &s));
+  EXPECT_EQ(scene.inside().runge_kutta.start_velocity.size(), padded(16));
+  EXPECT_TRUE(runs(scene.explain("runge_kutta_integration")));
+  EXPECT_TRUE(scene.explain("euler_integration").ends_with("left out: integrates by Runge-Kutta"));
+  scene.step();
+}
+
+#ifdef PLEAT_WITH_SMOOTHING
+TEST(Schedule, SurfaceColumnsExistOnlyWhereDrawnCurved) {
+  Scene scene;
+  const pleat_garment sheet = scene.sheet(4);
+  pleat_cloth_settings s = Scene::default_settings();
+  s.surface = PLEAT_SURFACE_FLAT;
+  scene.cloth(sheet, s);
+  EXPECT_EQ(scene.inside().surface.normal.size(), 0u);
+  s.surface = PLEAT_SURFACE_PN;
+  scene.cloth(sheet, s);
+  EXPECT_EQ(scene.inside().surface.normal.size(), 2 * padded(16));
+  EXPECT_EQ(scene.inside().surface.fold.size(), 0u);
+  s.surface = PLEAT_SURFACE_PLEAT;
+  scene.cloth(sheet, s);
+  EXPECT_EQ(scene.inside().surface.fold.size(), 3 * padded(33));
+  EXPECT_TRUE(scene.explain("edge_length").find("run for 1 of 3 cloths") != std::string::npos);
+}
+#endif
+
+TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
+  struct Seen {
+    int depth = 0;
+    std::string open;
+    std::vector<std::string> names;
+  } seen;
+  pleat_world_def def = Scene::default_def();
+  def.stage_user = &seen;
+  def.stage = [](const char* system, int begin, void* user) {
+    Seen& s = *static_cast<Seen*>(user);
+    s.depth += begin ? 1 : -1;
+    EXPECT_TRUE(s.depth == 0 || s.depth == 1);
+    if (begin) {
+      s.open = system;
+      s.names.push_back(system);
+    } else {
+      EXPECT_EQ(s.open, system);
+    }
+  };
+  Scene scene(def);
+  pleat_cloth_settings s = Scene::default_settings();
+  s.substeps = 2;
+  s.sweeps = 3;
+  scene.cloth(scene.sheet(3), s);
+  seen.names.clear();
+  scene.step();
+  EXPECT_EQ(seen.depth, 0);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_force"), 2);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "stretch_constraint"), 6);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "air_drag"), 0);
+}
+
+TEST(Schedule, SubstepsFollowTheLongestInternalStep) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(3));
+  scene.step(1, 1.0f / 60);
+  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  scene.step(1, 1.0f / 30);
+  EXPECT_EQ(scene.info(cloth).substeps, 16u);
+  scene.step(1, 1.0f);
+  EXPECT_EQ(scene.info(cloth).substeps, 64u);
+  scene.step(1, 1e-5f);
+  EXPECT_EQ(scene.info(cloth).substeps, 1u);
+  EXPECT_EQ(scene.stats().substeps, 89u);
+  EXPECT_EQ(scene.stats().ticks, 4u);
+}
+
+}  // namespace
+}  // namespace pleat
