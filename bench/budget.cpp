@@ -6,8 +6,8 @@
 #include <map>
 
 #include "bench/counting_new.h"
-#include "bench/scene_quality.h"
 #include "demo/program/progress.h"
+#include "demo/quality/scene_quality.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
 
@@ -18,6 +18,7 @@ using demo::DrawnSurface;
 using demo::Progress;
 using demo::Scene;
 using demo::SceneDef;
+using demo::SceneQuality;
 using demo::Spread;
 using demo::StageClock;
 using NamedSpread = std::pair<std::string, Spread>;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/quality.h"
+#include "demo/quality/quality.h"
 #include "demo/scenes/scene_def.h"
 #include "demo/scenes/stage_clock.h"
 
@@ -25,7 +25,7 @@ struct Budget {
   std::vector<std::pair<std::string, demo::Spread>> systems;  ///< one by one
   std::optional<double> pn_smoothing;           ///< median us of the smoothing stages with PN alone, where we do more
   std::optional<double> allocations_per_frame;  ///< after warm-up; absent for runs that are all warm-up
-  Quality quality;
+  demo::Quality quality;
 };
 
 /// The paper's three parts, as stages.

@@ -3,11 +3,12 @@
 #include <cstdio>
 
 #include "bench/machine.h"
-#include "bench/scene_quality.h"
+#include "demo/quality/scene_quality.h"
 
 namespace pleat::bench {
 namespace {
 
+using demo::Quality;
 using demo::Spread;
 
 nlohmann::ordered_json to_json(const Spread& spread) {

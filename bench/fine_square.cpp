@@ -18,8 +18,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie");
 
-constexpr double kTick = 0.008;         // s; of 64 substeps, for the stiff little edges
-constexpr double kFirstBulge = 0.01;    // m, so that a flat start has a side to give way to
+constexpr double kTick = 0.008;       // s; of 64 substeps, for the stiff little edges
+constexpr double kFirstBulge = 0.01;  // m, so that a flat start has a side to give way to
 constexpr double kSeconds = kSolveSteps * kTick;
 
 pleat_cloth_settings fine_settings(const pleat_api& api) {
@@ -113,8 +113,8 @@ FineSolution solve(const pleat_api& api, const FineSquare& square, const std::fu
   FineSolution solution;
   std::vector<float> velocities(3 * kParticles);
   scene.read_particles(0, solution.positions);
-  scene.check(
-      api.cloth_read_particles(scene.world(), scene.cloths()[0], nullptr, velocities.data(), kParticles), "velocities");
+  scene.check(api.cloth_read_particles(scene.world(), scene.cloths()[0], nullptr, velocities.data(), kParticles),
+              "velocities");
   solution.speed = 0.0;
   for (size_t i = 0; i < velocities.size(); i += 3) {
     solution.speed = std::max(solution.speed, double(std::hypot(velocities[i], velocities[i + 1], velocities[i + 2])));
@@ -130,8 +130,8 @@ std::vector<float> read_fine(const std::filesystem::path& folder, const FineSqua
   std::vector<float> positions(3 * size_t{kFineSide} * kFineSide);
   const size_t expected = positions.size() * sizeof(float);
   if (bytes.size() != expected) {
-    throw demo::InputError(name, "should hold " + std::to_string(expected) + " bytes, holds " +
-                                     std::to_string(bytes.size()));
+    throw demo::InputError(name,
+                           "should hold " + std::to_string(expected) + " bytes, holds " + std::to_string(bytes.size()));
   }
   std::memcpy(positions.data(), bytes.data(), bytes.size());
   const auto bad = std::ranges::find_if(positions, [](float x) { return !std::isfinite(x); });

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/scene_quality.h"
+#include "demo/quality/scene_quality.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
@@ -69,7 +69,7 @@ RunRecord measure(const pleat_api& api, const SceneDef& def) {
   record.watertight =
       topology.manifold && topology.border_edges == record.garment.border_edges * segments_of_edge(def.settings);
 
-  bench::SceneQuality quality(scene);
+  SceneQuality quality(scene);
   CompressionWatch compression(scene, record.garment.edges);
   std::vector<float> particles;
   record.all_finite = true;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/quality.h"
+#include "demo/quality/quality.h"
 #include "demo/scenes/scene_def.h"
 #include "demo/scenes/stage_clock.h"
 
@@ -19,7 +19,7 @@ struct RunRecord {
   size_t border_edges;  ///< of one drawn cloth
   bool watertight;      ///< the drawn surface is open only where the garment is, and joined edge to edge elsewhere
   bool all_finite;      ///< every drawn vertex of every frame
-  bench::Quality quality;
+  Quality quality;
   std::vector<StageClock::Stage> stages;
   uint32_t most_compressed_frame;  ///< 1 is the first; where short edges are shortest, all in all
   Eigen::AlignedBox3d seen;        ///< all particles of all frames, relative to followed() of view.h

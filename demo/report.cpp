@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <optional>
 
-#include "bench/scene_quality.h"
+#include "demo/quality/scene_quality.h"
 
 namespace pleat::demo {
 namespace {
 
-void print_quality(const bench::Quality& quality) {
+void print_quality(const Quality& quality) {
   std::printf("stretch       %.2f %% at most, %.2f %% in 99 of 100 frames; strain RMS %.2f %%\n",
               quality.strain_max_percent, quality.strain_p99_percent, quality.strain_rms_percent);
   if (quality.penetration_particle_mm) {
@@ -70,7 +70,7 @@ nlohmann::ordered_json report_json(const SceneDef& def, const RunRecord& record,
     const Spread spread = spread_of(stage.frames);
     json["stages_us"][stage.name] = {{"median", spread.median}, {"min", spread.min}, {"p99", spread.p99}};
   }
-  json["quality"] = bench::to_json(record.quality);
+  json["quality"] = to_json(record.quality);
   json["files"] = nlohmann::ordered_json::array();
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
   return json;

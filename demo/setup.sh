@@ -11,7 +11,9 @@ readonly root
 
 # Shows a command, then runs it.
 run() {
-  printf '+ %s\n' "${*@Q}"
+  printf '+'
+  printf ' %q' "$@"
+  printf '\n'
   "$@"
 }
 

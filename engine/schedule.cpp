@@ -16,6 +16,7 @@ namespace {
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::size_t kMostCapsulesPerCloth = 1024;  // near one cloth at a time
 constexpr std::size_t kContactsPerParticle = 16;     // room for rows; what does not fit is counted
+constexpr std::size_t kMostClearancePlanes = 4096;   // settled together; more are settled in turn
 
 Plan plan_of(const World& world, const ClothRecord& cloth) {
   Plan plan = 0;
@@ -56,6 +57,10 @@ void make_room(World& world, const ClothRecord& cloth) {
     at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
     at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
     at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
+    if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr && world.capsules.size() != 0) {
+      if (world.footprint.size() < pattern->vertex_count) world.footprint.resize(pattern->vertex_count);
+      at_least(world.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
+    }
   }
 }
 
@@ -190,7 +195,11 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
 void refresh(World& world, ClothRecord& cloth) {
   make_room(world, cloth);
   cloth.plan = plan_of(world, cloth);
+#ifdef PLEAT_WITH_COLLISION
+  if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);
+#endif
   ClothTick t(world, cloth);
+  t.t1 = t.t0;  // between ticks bodies are where the last one left them
   run_phase(t, Phase::kFrameEnd);
 }
 

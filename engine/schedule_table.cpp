@@ -26,6 +26,9 @@
 #include "systems/edge_length.h"
 #include "systems/particle_normals.h"
 #include "systems/tessellation.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/surface_clearance.h"
+#endif
 #endif
 
 namespace pleat {
@@ -343,6 +346,48 @@ constexpr Row kRows[] = {
                     .drawn_position = t.drawn_position}
            .run();
      }},
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kFrameEnd, "surface_footprint", with_capsules,
+     [](ClothTick& t) {
+       Tessellation{.mode = SurfaceMode::kFlat,
+                    .garment = &t.garment,
+                    .pattern = t.cloth.pattern(),
+                    .position = t.position,
+                    .normal = {},
+                    .fold = {},
+                    .drawn_position = t.world.footprint.view()}
+           .run();
+     }},
+    {Phase::kFrameEnd, "surface_capsules", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       ColliderMotion{.capsules = &w.capsules,
+                      .bodies = w.bodies.get(),
+                      .particle_count = t.garment.particle_count,
+                      .position = t.position,
+                      .reach = t.garment.mean_edge_length,  // the surface bulges less than that
+                      .t0 = t.t0,
+                      .t1 = t.t1,
+                      .poses = w.capsule_poses.data(),
+                      .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                      .pose_count = &w.capsule_pose_count}
+           .run(w.stats);
+     }},
+    {Phase::kFrameEnd, "surface_clearance", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       SurfaceClearance{.garment = &t.garment,
+                        .pattern = t.cloth.pattern(),
+                        .footprint = w.footprint.view(),
+                        .capsules = w.capsule_poses.data(),
+                        .capsule_count = w.capsule_pose_count,
+                        .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
+                        .planes = w.clearance_planes.data(),
+                        .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),
+                        .drawn_position = t.drawn_position}
+           .run();
+     }},
+#endif
     {Phase::kFrameEnd, "drawn_normals", always,
      [](ClothTick& t) {
        DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal}.run();

@@ -110,7 +110,9 @@ World::World(const pleat_world_def& definition)
       mesh_pointers(&memory),
       capsule_poses(&memory),
       contacts(&memory),
-      detection_scratch(&memory) {}
+      detection_scratch(&memory),
+      footprint(&memory),
+      clearance_planes(&memory) {}
 
 World::~World() = default;
 

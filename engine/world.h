@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "components/clearance_plane.h"
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/garment.h"
@@ -106,6 +107,8 @@ struct World {
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
   Column<float> detection_scratch;
+  Vec3Column footprint;
+  Column<ClearancePlane> clearance_planes;
   std::uint32_t capsule_pose_count = 0, contact_count = 0;
 
   Stats stats;

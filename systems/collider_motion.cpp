@@ -6,7 +6,7 @@ namespace pleat {
 
 bool ColliderMotion::validate() const {
   return capsules != nullptr && bodies != nullptr && position.x != nullptr && poses != nullptr &&
-         pose_count != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
+         pose_count != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 <= t1 && t1 <= 1.0f;
 }
 
 void ColliderMotion::run(Stats& stats) const {

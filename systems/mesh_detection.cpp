@@ -1,6 +1,7 @@
 #include "systems/mesh_detection.h"
 
 #include <array>
+#include <utility>
 
 #include "systems/contact_row.h"
 #include "systems/mesh_pose.h"
@@ -82,13 +83,17 @@ struct MeshTest {
 
   void meet(Face& f, std::uint32_t t) const {
     const MeshPose::Corners body = pose.corners(t);
-    const auto least = [&](const Vec3& axis, const Vec3& from) {
-      return std::min({dot(body.a - from, axis), dot(body.b - from, axis), dot(body.c - from, axis)});
+    const auto extent = [&body](const Vec3& axis, const Vec3& from) {
+      const float a = dot(body.a - from, axis), b = dot(body.b - from, axis), c = dot(body.c - from, axis);
+      return std::pair(std::min(std::min(a, b), c), std::max(std::max(a, b), c));
     };
-    const float low = least(f.normal, f.x[0]), high = -least(-f.normal, f.x[0]);
+    const auto [low, high] = extent(f.normal, f.x[0]);
     if (low > search || high < -search) return;
+    bool near_edge[3];
     for (std::size_t c = 0; c < 3; ++c) {
-      if (least(f.outward[c], f.x[c]) > search) return;
+      const auto [least, most] = extent(f.outward[c], f.x[c]);
+      if (least > search) return;
+      near_edge[c] = f.owns_edge[c] && least < reach && most > -reach;
     }
     for (std::size_t c = 0; c < 3; ++c) {
       if (f.owns_particle[c]) find_nearest(f.x[c], t, body, f.nearest[c]);
@@ -98,7 +103,7 @@ struct MeshTest {
       if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k], body);
       if (!pose.topology.owns_edge(t, k)) continue;
       for (int c = 0; c < 3; ++c) {
-        if (f.owns_edge[c]) test_edges(f, c, t, body, k);
+        if (near_edge[c]) test_edges(f, c, t, body, k);
       }
     }
   }

@@ -54,6 +54,7 @@ class Fitter {
     for (const Side side : kSides) add_leg(side);
     add_torso();
     add_head();
+    figure_.first_arm = figure_.capsules.size();
     for (const Side side : kSides) add_arm(side);
     return std::move(figure_);
   }

@@ -36,7 +36,8 @@ struct BodyCapsule {
 /// at that height. A ring of n straight edges clears them by d when its corners are (waist_radius + d) / cos(pi/n)
 /// away.
 struct Figure {
-  std::vector<BodyCapsule> capsules;     ///< the first is the pelvis
+  std::vector<BodyCapsule> capsules;     ///< the first is the pelvis, the arms come last
+  std::size_t first_arm = 0;             ///< where the arms begin; as many as there are capsules if there are none
   std::array<std::size_t, 2> feet = {};  ///< which capsules stand on the ground
   Anchor hips;                           ///< origin of the hips frame
   Eigen::Matrix3d hips_axes;             ///< columns x, y, z in the frame of the joint of `hips`

@@ -42,6 +42,7 @@ BodyMotion make_kick(double thigh, double knee) {
     pose.capsules.push_back(capsule(pose.hips, {-0.05, 0.95, 0.0}, {0.05, 0.95, 0.0}, 0.11));
     add_leg(pose, -0.09, a, b);
     add_leg(pose, 0.09, 0.0, 0.0);
+    pose.touching = pose.capsules.size();
     return pose;
   };
 }
@@ -49,7 +50,7 @@ BodyMotion make_kick(double thigh, double knee) {
 BodyMotion make_clip_motion(Clip clip, Figure figure) {
   return [clip = std::move(clip), figure = std::move(figure)](double seconds) {
     const Pose pose = pose_at(clip, seconds);
-    return BodyPose{hips_at(figure, pose), capsules_at(figure, pose)};
+    return BodyPose{hips_at(figure, pose), capsules_at(figure, pose), figure.first_arm};
   };
 }
 

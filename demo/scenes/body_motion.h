@@ -13,6 +13,7 @@ namespace pleat::demo {
 struct BodyPose {
   Eigen::Isometry3d hips = Eigen::Isometry3d::Identity();  ///< from the hips frame to the world; pins follow it
   std::vector<CapsulePose> capsules;                       ///< always as many, in the same order
+  std::size_t touching = 0;                                ///< the first so many are colliders, the others only shown
 };
 
 /// A body's pose as a function of time in seconds, from 0 on.
@@ -23,7 +24,8 @@ using BodyMotion = std::function<BodyPose(double seconds)>;
 /// at 0 s is the world's.
 BodyMotion make_kick(double thigh, double knee);
 
-/// A recorded clip on a figure fitted to it. Before its first and after its last frame the body holds still.
+/// A recorded clip on a figure fitted to it. Before its first and after its last frame the body holds still. The arms
+/// are only shown: recorded hands swing through the hips of a fitted figure and would nail a skirt to them.
 BodyMotion make_clip_motion(Clip clip, Figure figure);
 
 }  // namespace pleat::demo

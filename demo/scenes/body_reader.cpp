@@ -11,28 +11,32 @@ Eigen::Vector3f read_point(const JsonValue& value) { return value.vector().cast<
 
 double read_radius(const JsonValue& shape) { return shape.at("radius").number(1e-4, 1e3); }
 
-void drop_frames(Clip& clip, const JsonValue& first) {
-  const size_t dropped = first.integer(0, uint32_t(clip.frame_count()) - 1);
+void drop_frames(Clip& clip, size_t dropped) {
   clip.frames.erase(clip.frames.begin(), clip.frames.begin() + ptrdiff_t(dropped * clip.skeleton.channel_count));
 }
 
-MotionDef read_clip(const JsonValue& value, const SceneFile& file, const std::string& other_clip) {
-  value.allow_keys({"file", "first_frame", "settle"});
+constexpr double kSettle = 1.0;  // s
+
+/// A clip on a figure fitted to it. Without `first_frame` it begins where its calibration ends.
+MotionDef play(Clip clip, std::optional<size_t> first_frame, double settle) {
   MotionDef def;
-  def.settle = value.find("settle") ? value.at("settle").number(0.0, 60.0) : 1.0;
-  Clip clip;
-  if (other_clip.empty()) {
-    const std::string name = value.at("file").text();
-    clip = read_bvh(*file.open(name), file.path_of(name));
-    if (const auto first = value.find("first_frame")) drop_frames(clip, *first);
-  } else {
-    clip = load_bvh(other_clip);
-  }
+  def.settle = settle;
   def.figure = fit_figure(clip);
+  drop_frames(clip, first_frame.value_or(calibration_frames(*def.figure, clip)));
   def.ground = ground_height(*def.figure, clip);
   def.duration = clip.duration();
   def.motion = make_clip_motion(std::move(clip), *def.figure);
   return def;
+}
+
+MotionDef read_clip(const JsonValue& value, const SceneFile& file) {
+  value.allow_keys({"file", "first_frame", "settle"});
+  const std::string name = value.at("file").text();
+  Clip clip = read_bvh(*file.open(name), file.path_of(name));
+  std::optional<size_t> first_frame;
+  if (const auto first = value.find("first_frame")) first_frame = first->integer(0, uint32_t(clip.frame_count()) - 1);
+  const auto settle = value.find("settle");
+  return play(std::move(clip), first_frame, settle ? settle->number(0.0, 60.0) : kSettle);
 }
 
 }  // namespace
@@ -62,9 +66,9 @@ FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
 MotionDef read_motion(const JsonValue& motion, const SceneFile& file, const std::string& other_clip) {
   motion.allow_keys({"kick", "clip"});
   const std::string kind = motion.one_of({"kick", "clip"});
+  if (!other_clip.empty()) return play(load_bvh(other_clip), std::nullopt, kSettle);
   const JsonValue value = motion.at(kind);
-  if (kind == "clip") return read_clip(value, file, other_clip);
-  if (!other_clip.empty()) throw InputError(file.name(), "this scene plays no clip that --clip could replace");
+  if (kind == "clip") return read_clip(value, file);
   value.allow_keys({"thigh", "knee"});
   MotionDef def;
   def.motion = make_kick(value.at("thigh").number(-180.0, 180.0), value.at("knee").number(-180.0, 180.0));

@@ -22,7 +22,7 @@ struct MotionDef {
   std::optional<double> ground;    ///< y, m
 };
 
-/// Reads a scene's `motion`; a path in `other_clip` takes the place of the scene's BVH file. Throws InputError.
+/// Reads a scene's `motion`; the clip at the path `other_clip` takes its place, unless empty. Throws InputError.
 MotionDef read_motion(const JsonValue& motion, const SceneFile& file, const std::string& other_clip);
 
 }  // namespace pleat::demo

@@ -86,16 +86,21 @@ Rings read_rings(const JsonValue& list) {
   return rings;
 }
 
+std::vector<uint32_t> read_ring_sizes(const JsonValue& skirt) {
+  skirt.allow_keys({"ring_sizes"});
+  std::vector<uint32_t> sizes;
+  for (const JsonValue& size : skirt.at("ring_sizes").items()) sizes.push_back(size.integer(3, kMostOfARing));
+  if (sizes.size() < 2 || sizes.size() > kMostRings) skirt.at("ring_sizes").fail("needs 2 to 256 rings");
+  return sizes;
+}
+
 /// A skirt with the proportions of workload W1, cut for a body: from the waist, clear of it, to the knees.
-Rings cut_skirt(const JsonValue& skirt, const Figure& figure) {
+Rings cut_skirt(std::vector<uint32_t> sizes, const Figure& figure) {
   constexpr double kClearance = 0.015;  // m, outside the waist: cloth thickness and some ease
   constexpr double kFlare = 0.42;       // growth of the radius by length
   constexpr double kHem = 0.42;         // below the hip joints, by leg length; the knee is at about 0.5
-  skirt.allow_keys({"ring_sizes"});
-  Rings rings;
-  for (const JsonValue& size : skirt.at("ring_sizes").items()) rings.sizes.push_back(size.integer(3, kMostOfARing));
+  Rings rings{std::move(sizes), {}, {}};
   const size_t count = rings.sizes.size();
-  if (count < 2 || count > kMostRings) skirt.at("ring_sizes").fail("needs 2 to 256 rings");
   const double waist = (figure.waist_radius + kClearance) / std::cos(std::numbers::pi / rings.sizes[0]);
   const double length = figure.waist_height + kHem * figure.leg_length;
   for (size_t r = 0; r < count; ++r) {
@@ -169,14 +174,12 @@ Garment read_garment(const JsonValue& value, const SceneFile& file, const pleat_
   Rings rings;
   if (kind == "grid") {
     garment.mesh = read_grid(shape, api);
-  } else if (kind == "rings") {
-    rings = read_rings(shape);
+  } else if (kind == "rings" || kind == "skirt") {
+    if (kind == "skirt" && !wearer) shape.fail("is cut for a figure: the scene needs /motion/clip");
+    if (kind == "rings") rings = read_rings(shape);
+    if (wearer) rings = cut_skirt(kind == "rings" ? rings.sizes : read_ring_sizes(shape), *wearer->figure);
     garment.mesh = build_rings(shape, api, rings);
-  } else if (kind == "skirt") {
-    if (!wearer) shape.fail("is cut for a figure: the scene needs /motion/clip");
-    rings = cut_skirt(shape, *wearer->figure);
-    garment.mesh = build_rings(shape, api, rings);
-    transform(garment.mesh, [wearer](const Vector3d& p) -> Vector3d { return wearer->hips * p; });
+    if (wearer) transform(garment.mesh, [wearer](const Vector3d& p) -> Vector3d { return wearer->hips * p; });
   } else {
     garment.mesh = read_mesh_file(shape, file);
   }

@@ -86,8 +86,8 @@ void Scene::create_copies() {
     move_points(def_.garment.positions, origin, moved_);
     def.positions = moved_.data();
     check(api_.cloth_create(world_, &def, &cloths_.emplace_back()), "cloth");
-    for (const CapsulePose& capsule : body_.capsules) {
-      body_parts_.push_back(create_capsule(capsule, origin.cast<float>(), 1.0f));
+    for (size_t part = 0; part < body_.touching; ++part) {
+      body_parts_.push_back(create_capsule(body_.capsules[part], origin.cast<float>(), 1.0f));
     }
   }
 }
@@ -144,7 +144,7 @@ void Scene::pose_next() {
 }
 
 void Scene::step() {
-  const size_t parts = body_.capsules.size();
+  const size_t parts = body_.touching;
   for (size_t k = 0; def_.motion && k < cloths_.size(); ++k) {
     const Eigen::Vector3f origin = def_.origins[k].cast<float>();
     if (!def_.pins.empty()) {

@@ -109,13 +109,14 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (const auto value = scene.find("motion")) {
     motion = read_motion(*value, file, request.clip);
   } else if (!request.clip.empty()) {
-    throw InputError(file.name(), "this scene plays no clip that --clip could replace");
+    throw InputError(file.name(), "this scene has no motion that --clip could replace");
   }
   def.motion = motion.motion;
   def.settle = motion.settle;
   def.ground = motion.ground;
   if (motion.duration) def.frames = std::max(1u, uint32_t(*motion.duration * def.rate));
-  if (const auto frames = scene.find("frames")) def.frames = frames->integer(1, kMostFrames);
+  if (const auto frames = scene.find("frames"); frames && request.clip.empty())
+    def.frames = frames->integer(1, kMostFrames);
   if (request.frames) def.frames = *request.frames;
   if (const auto ground = scene.find("ground")) def.ground = ground->number(-1e4, 1e4);
   if (const auto view = scene.find("view")) def.view = view->vector(-1.0, 1.0);

@@ -93,7 +93,7 @@ TEST_F(Memory, RunsOutInTheFirstCurvedClothOfAWorld) {
   ASSERT_EQ(api().cloth_create(world, &def, &cloth), pleat_result{PLEAT_OK});
   def.settings.surface = PLEAT_SURFACE_PLEAT;
   pleat_cloth out{};
-  EXPECT_GT(fail_until_done([&] { return api().cloth_create(world, &def, &out); }), 10);
+  EXPECT_GT(fail_until_done([&] { return api().cloth_create(world, &def, &out); }), 5);
 }
 
 TEST_F(Memory, RunsOutInClothSet) {

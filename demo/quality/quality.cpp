@@ -1,9 +1,9 @@
-#include "bench/quality.h"
+#include "demo/quality/quality.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pleat::bench {
+namespace pleat::demo {
 namespace {
 
 constexpr int kSampleSteps = 8;  // (8 + 1)(8 + 2) / 2 = 45 samples in a triangle, corners and edges among them
@@ -19,7 +19,7 @@ Triangle triangle_of(std::span<const float> positions, std::span<const uint32_t>
 
 double depth_of_point(const Vector3d& p, const Bodies& bodies) {
   double depth = 0.0;
-  for (const Capsule& capsule : bodies.capsules) depth = std::max(depth, -signed_distance(p, capsule));
+  for (const ExactCapsule& capsule : bodies.capsules) depth = std::max(depth, -signed_distance(p, capsule));
   for (const auto& mesh : bodies.meshes) depth = std::max(depth, -mesh->signed_distance(p));
   return depth;
 }
@@ -27,7 +27,7 @@ double depth_of_point(const Vector3d& p, const Bodies& bodies) {
 /// The bodies that may reach into the ball: everything else need not be asked.
 Bodies near_ball(const Bodies& bodies, const Vector3d& center, double radius) {
   Bodies near;
-  for (const Capsule& capsule : bodies.capsules) {
+  for (const ExactCapsule& capsule : bodies.capsules) {
     if (signed_distance(center, capsule) < radius) near.capsules.push_back(capsule);
   }
   for (const auto& mesh : bodies.meshes) {
@@ -106,7 +106,7 @@ void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& fram
   const Bodies curved = near_cloth(all, frame.drawn_vertices);
   for (size_t t = 0; !curved.capsules.empty() && 3 * t < frame.drawn_triangles.size(); ++t) {
     const Triangle triangle = triangle_of(frame.drawn_vertices, frame.drawn_triangles, t);
-    for (const Capsule& capsule : curved.capsules) drawn = std::max(drawn, -signed_distance(triangle, capsule));
+    for (const ExactCapsule& capsule : curved.capsules) drawn = std::max(drawn, -signed_distance(triangle, capsule));
   }
   for (uint32_t v = 0; !curved.meshes.empty() && 3 * v < frame.drawn_vertices.size(); ++v) {
     for (const auto& body : curved.meshes) {
@@ -143,4 +143,4 @@ Quality QualityMeter::result() const {
   return quality;
 }
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

@@ -1,4 +1,4 @@
-#include "bench/quality.h"
+#include "demo/quality/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
-namespace pleat::bench {
+namespace pleat::demo {
 namespace {
 
 TEST(Distance, PointToCapsuleIsExact) {
-  const Capsule capsule{{0, 0, 0}, {0, 1, 0}, 0.1};
+  const ExactCapsule capsule{{0, 0, 0}, {0, 1, 0}, 0.1};
   EXPECT_DOUBLE_EQ(signed_distance(Vector3d(0.3, 0.5, 0), capsule), 0.2);
   EXPECT_DOUBLE_EQ(signed_distance(Vector3d(0, 0.5, 0), capsule), -0.1);
   EXPECT_NEAR(signed_distance(Vector3d(0, 1.25, 0), capsule), 0.15, 1e-15);
@@ -32,7 +32,7 @@ TEST(Distance, TriangleAgreesWithDenseSamples) {
   const auto point = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
   for (int trial = 0; trial < 200; ++trial) {
     const Triangle t{point(), point(), point()};
-    const Capsule capsule{point(), point(), 0.0};
+    const ExactCapsule capsule{point(), point(), 0.0};
     double sampled = 1e9;
     constexpr int kSteps = 60;
     for (int i = 0; i <= kSteps; ++i) {
@@ -140,4 +140,4 @@ TEST(Quality, RestJitterCountsFreeParticlesOnly) {
 }
 
 }  // namespace
-}  // namespace pleat::bench
+}  // namespace pleat::demo

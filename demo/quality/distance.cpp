@@ -2,12 +2,12 @@
 //
 // Nearest point of a triangle by Voronoi regions, nearest points of two segments by clamped minimisation:
 // C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.5 and 5.1.9.
-#include "bench/distance.h"
+#include "demo/quality/distance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace pleat::bench {
+namespace pleat::demo {
 namespace {
 
 double segment_segment_distance(const Vector3d& p1, const Vector3d& q1, const Vector3d& p2, const Vector3d& q2) {
@@ -58,11 +58,11 @@ Vector3d nearest_on_triangle(const Vector3d& p, const Triangle& t) {
   return t.a + ab * (vb * scale) + ac * (vc * scale);
 }
 
-double signed_distance(const Vector3d& p, const Capsule& capsule) {
+double signed_distance(const Vector3d& p, const ExactCapsule& capsule) {
   return (p - nearest_on_segment(p, capsule.a, capsule.b)).norm() - capsule.radius;
 }
 
-double signed_distance(const Triangle& t, const Capsule& capsule) {
+double signed_distance(const Triangle& t, const ExactCapsule& capsule) {
   const Vector3d &a = capsule.a, &b = capsule.b;
   if (segment_pierces(a, b, t)) return -capsule.radius;
   const double core = std::min({(a - nearest_on_triangle(a, t)).norm(), (b - nearest_on_triangle(b, t)).norm(),
@@ -71,4 +71,4 @@ double signed_distance(const Triangle& t, const Capsule& capsule) {
   return core - capsule.radius;
 }
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 
-namespace pleat::bench {
+namespace pleat::demo {
 
 using Eigen::Vector3d;
 
 /// All points within `radius` of the segment ab; a = b is a sphere. Metres, world space.
-struct Capsule {
+struct ExactCapsule {
   Vector3d a, b;
   double radius;
 };
@@ -23,10 +23,10 @@ Vector3d nearest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d
 Vector3d nearest_on_triangle(const Vector3d& p, const Triangle& triangle);
 
 /// Distance from p to the capsule's surface, m; negative inside.
-double signed_distance(const Vector3d& p, const Capsule& capsule);
+double signed_distance(const Vector3d& p, const ExactCapsule& capsule);
 
 /// The least signed distance of any point of the triangle to the capsule, m; exact. A triangle that the capsule's core
 /// pierces is at -radius.
-double signed_distance(const Triangle& triangle, const Capsule& capsule);
+double signed_distance(const Triangle& triangle, const ExactCapsule& capsule);
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "bench/distance.h"
-#include "bench/solid_mesh.h"
+#include "demo/quality/distance.h"
+#include "demo/quality/solid_mesh.h"
 
-namespace pleat::bench {
+namespace pleat::demo {
 
 /// How good a simulated cloth is. Strain is length / rest length - 1 of the coarse edges; penetration is the greatest
 /// depth inside any body. What was not measured is absent.
@@ -41,7 +41,7 @@ struct ClothFrame {
 };
 
 struct Bodies {
-  std::vector<Capsule> capsules;
+  std::vector<ExactCapsule> capsules;
   std::vector<std::shared_ptr<const SolidMesh>> meshes;
 };
 
@@ -65,4 +65,4 @@ class QualityMeter {
   std::optional<double> particle_depth_, interior_depth_, drawn_depth_;  // m
 };
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

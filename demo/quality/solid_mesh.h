@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "bench/distance.h"
+#include "demo/quality/distance.h"
 
-namespace pleat::bench {
+namespace pleat::demo {
 
 /// A closed, outward-facing triangle mesh that tells how deep a point is inside it. On a mesh with holes the sign near
 /// a hole means little.
@@ -33,4 +33,4 @@ class SolidMesh {
   std::vector<Box> boxes_;  // a binary tree in heap order: the children of node i are 2i+1 and 2i+2
 };
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

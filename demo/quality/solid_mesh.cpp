@@ -1,4 +1,4 @@
-#include "bench/solid_mesh.h"
+#include "demo/quality/solid_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pleat::bench {
+namespace pleat::demo {
 namespace {
 
 constexpr size_t kLeafTriangles = 4;
@@ -86,4 +86,4 @@ double SolidMesh::signed_distance(const Vector3d& p) const {
   return std::copysign(std::sqrt(nearest.squared_distance), nearest.facing);
 }
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

@@ -1,19 +1,19 @@
-#include "bench/scene_quality.h"
+#include "demo/quality/scene_quality.h"
 
 #include <cmath>
 
-namespace pleat::bench {
+namespace pleat::demo {
 namespace {
 
 constexpr double kHold = 5.0, kWatch = 1.0;  // s
 
-Capsule exact(const demo::CapsulePose& capsule, const Eigen::Vector3d& origin) {
+ExactCapsule exact(const CapsulePose& capsule, const Eigen::Vector3d& origin) {
   return {capsule.a.cast<double>() + origin, capsule.b.cast<double>() + origin, capsule.radius};
 }
 
 }  // namespace
 
-SceneQuality::SceneQuality(const demo::Scene& scene) {
+SceneQuality::SceneQuality(const Scene& scene) {
   const pleat_api& api = scene.api();
   pleat_garment_info info;
   scene.check(api.garment_info(scene.world(), scene.garment(), &info), "garment");
@@ -28,25 +28,26 @@ SceneQuality::SceneQuality(const demo::Scene& scene) {
               "triangles");
   mesh_.pinned.resize(info.particles);
   for (const uint32_t pin : scene.def().pins) mesh_.pinned[pin] = true;
-  for (const demo::FixedBody& body : scene.def().fixed) {
-    if (const auto* capsule = std::get_if<demo::CapsulePose>(&body.shape)) {
+  for (const FixedBody& body : scene.def().fixed) {
+    if (const auto* capsule = std::get_if<CapsulePose>(&body.shape)) {
       fixed_.capsules.push_back(exact(*capsule, Eigen::Vector3d::Zero()));
     } else {
-      const auto& shape = std::get<demo::TriangleMesh>(body.shape);
+      const auto& shape = std::get<TriangleMesh>(body.shape);
       fixed_.meshes.push_back(std::make_shared<SolidMesh>(shape.positions, shape.triangles));
     }
   }
 }
 
-Bodies SceneQuality::bodies_of(const demo::Scene& scene, size_t copy) const {
+Bodies SceneQuality::bodies_of(const Scene& scene, size_t copy) const {
   Bodies bodies = fixed_;
-  for (const demo::CapsulePose& capsule : scene.body().capsules) {
-    bodies.capsules.push_back(exact(capsule, scene.def().origins[copy]));
+  const BodyPose& body = scene.body();
+  for (size_t part = 0; part < body.touching; ++part) {
+    bodies.capsules.push_back(exact(body.capsules[part], scene.def().origins[copy]));
   }
   return bodies;
 }
 
-void SceneQuality::add_frame(const demo::Scene& scene, std::span<const demo::DrawnSurface> surfaces) {
+void SceneQuality::add_frame(const Scene& scene, std::span<const DrawnSurface> surfaces) {
   meter_.begin_frame();
   for (size_t k = 0; k < scene.cloths().size(); ++k) {
     scene.read_particles(k, particles_);
@@ -55,7 +56,7 @@ void SceneQuality::add_frame(const demo::Scene& scene, std::span<const demo::Dra
   }
 }
 
-void SceneQuality::measure_rest(demo::Scene& scene) {
+void SceneQuality::measure_rest(Scene& scene) {
   if (!scene.def().motion) return;
   const long hold = std::lround(kHold * scene.def().rate), watch = std::lround(kWatch * scene.def().rate);
   for (long frame = 0; frame < hold; ++frame) scene.hold();
@@ -87,4 +88,4 @@ nlohmann::ordered_json to_json(const Quality& quality) {
   return json;
 }
 
-}  // namespace pleat::bench
+}  // namespace pleat::demo

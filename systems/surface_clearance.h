@@ -1,0 +1,46 @@
+// Keeps the drawn surface out of the capsules that the cloth touches.
+//
+// Contact keeps the coarse triangles outside, but the curved surface between them bulges up to some centimetres towards
+// the body. A drawn triangle lies over a small flat one, its footprint on the coarse triangle, and that one is outside:
+//
+//        drawn  a_____            Where the footprint and the core of the capsule come closest, the direction n from
+//             /       \__c        core to footprint separates them: the footprint lies beyond the plane that is
+//   footprint A------B---C        square to n and touches the capsule. The three drawn vertices that fell behind it
+//   - - - - - - - - - - - plane   are lifted to it.
+//          ( capsule )
+//
+// The drawn triangle is then beyond a plane that the capsule is behind, hence outside: no sampling, no inflation by the
+// triangle's size, and no doubt about the side even where the surface had fallen behind the core. The nearest points of
+// two convex sets give an n that is unique and moves continuously with them, so the surface does not pop; vertices are
+// shared, so it does not crack; and where nothing bulges behind a plane it is left as it is, bit for bit.
+#pragma once
+
+#include "components/clearance_plane.h"
+#include "components/colliders.h"
+#include "components/garment.h"
+#include "components/tessellation_pattern.h"
+
+namespace pleat {
+
+/// Moves drawn vertices so that every drawn triangle keeps at least `clearance` from every capsule, up to rounding. One
+/// sweep does it where the planes at a vertex agree (all angles between their normals are at most 90 degrees); where
+/// they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are outside.
+/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
+/// Writes: drawn_position (V) m; planes (scratch; when it is full what it holds is settled first)
+/// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
+struct SurfaceClearance {
+  const Garment* garment = nullptr;
+  const TessellationPattern* pattern = nullptr;
+  ConstVec3View footprint;
+  const CapsulePose* capsules = nullptr;
+  std::uint32_t capsule_count = 0;
+  float clearance = 0.0f;  // m
+  ClearancePlane* planes = nullptr;
+  std::uint32_t plane_capacity = 0;
+  Vec3View drawn_position;
+
+  bool validate() const;
+  void run() const;
+};
+
+}  // namespace pleat
