@@ -18,15 +18,15 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie");
 
-constexpr double kTick = 0.008;       // s; of 64 substeps, for the stiff little edges
-constexpr double kFirstBulge = 0.01;  // m, so that a flat start has a side to give way to
-constexpr double kSeconds = kSolveSteps * kTick;
+constexpr uint32_t kSides[] = {17, 33, kFineSide};
+constexpr uint32_t kSubsteps = 64;
+constexpr double kSubstep = 0.008;    // s, over the number of edges along a side: what the springs bear
 
 pleat_cloth_settings fine_settings(const pleat_api& api) {
   pleat_cloth_def def;
   api.cloth_def_init(&def, sizeof def);
   pleat_cloth_settings& s = def.settings;
-  s.substeps = 64;
+  s.substeps = kSubsteps;
   s.sweeps = 1;
   s.stiffness = 300.0f;
   s.stretch_limit = 1.0f;
@@ -39,13 +39,13 @@ pleat_cloth_settings fine_settings(const pleat_api& api) {
   return s;
 }
 
-/// The amplitude A of the wave z = A sin(n pi u), u = 0..1, that is 1 m long over a chord of `width`.
-double wave_height(double width, double n) {
+/// The amplitude A of the wave z = A sin(waves u), u = 0..1, that is 1 m long over a chord of `width`.
+double wave_height(double width, double waves) {
   const auto length = [&](double a) {
     constexpr int kSteps = 1000;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i) {
-      sum += std::hypot(width, a * n * std::numbers::pi * std::cos(n * std::numbers::pi * (i + 0.5) / kSteps));
+      sum += std::hypot(width, a * waves * std::cos(waves * (i + 0.5) / kSteps));
     }
     return sum / kSteps;
   };
@@ -57,24 +57,61 @@ double wave_height(double width, double n) {
   return low;
 }
 
-/// Hanging straight down, in waves across that take up what the pins leave over.
-std::vector<float> first_state(const FineSquare& square) {
-  const double n = square.waves == 1 ? 1.0 : 2.0 * square.waves, height = wave_height(square.width, n);
+/// Lying level, sagging in waves across that take up what the pins leave over. n x n particles.
+std::vector<float> first_state(const FineSquare& square, uint32_t n) {
+  const double waves = square.half_waves * std::numbers::pi, height = wave_height(square.width, waves);
   std::vector<float> positions;
-  for (uint32_t row = 0; row < kFineSide; ++row) {
-    for (uint32_t column = 0; column < kFineSide; ++column) {
-      const double u = double(column) / (kFineSide - 1), v = double(row) / (kFineSide - 1);
-      const double bulge = kFirstBulge * std::sin(std::numbers::pi * v);
+  for (uint32_t row = 0; row < n; ++row) {
+    for (uint32_t column = 0; column < n; ++column) {
+      const double u = double(column) / (n - 1), v = double(row) / (n - 1);
       positions.push_back(float(square.width * (u - 0.5)));
-      positions.push_back(float(-v));
-      positions.push_back(float(height * std::sin(n * std::numbers::pi * u) + bulge));
+      positions.push_back(float(-height * std::sin(waves * u)));
+      positions.push_back(float(v));
     }
   }
   return positions;
 }
 
+/// n x n points -> (2 n - 1) x (2 n - 1), those between halfway.
+std::vector<float> refined(const std::vector<float>& coarse, uint32_t n) {
+  const uint32_t m = 2 * n - 1;
+  std::vector<float> fine;
+  for (uint32_t row = 0; row < m; ++row) {
+    for (uint32_t column = 0; column < m; ++column) {
+      const size_t low = (row / 2) * n + column / 2, high = ((row + 1) / 2) * n + (column + 1) / 2;
+      for (size_t axis = 0; axis < 3; ++axis) fine.push_back(0.5f * (coarse[3 * low + axis] + coarse[3 * high + axis]));
+    }
+  }
+  return fine;
+}
+
 std::filesystem::path file_of(const std::filesystem::path& folder, const FineSquare& square) {
   return folder / (std::string(square.name) + ".f32");
+}
+
+/// Where n x n particles come to rest from `start`.
+FineSolution relaxed(const pleat_api& api, const FineSquare& square, uint32_t n, const std::vector<float>& start,
+                     const std::function<void()>& step) {
+  demo::SceneDef def;
+  def.name = square.name;
+  def.rate = (n - 1) / (kSubsteps * kSubstep);
+  def.garment = flat_square(api, n);
+  def.pins = {0, n - 1};
+  def.settings = fine_settings(api);
+  demo::Scene scene(api, def);
+  const pleat_cloth cloth = scene.cloths()[0];
+  scene.check(api.cloth_write_particles(scene.world(), cloth, start.data(), nullptr, n * n), "start");
+  for (uint32_t i = 0; i < kSolveSteps / std::size(kSides); ++i) {
+    scene.advance();
+    step();
+  }
+  FineSolution solution{std::vector<float>(start.size()), 0.0};
+  std::vector<float> v(start.size());
+  scene.check(api.cloth_read_particles(scene.world(), cloth, solution.positions.data(), v.data(), n * n), "end");
+  for (size_t i = 0; i < v.size(); i += 3) {
+    solution.speed = std::max(solution.speed, double(std::hypot(v[i], v[i + 1], v[i + 2])));
+  }
+  return solution;
 }
 
 }  // namespace
@@ -96,28 +133,11 @@ demo::TriangleMesh flat_square(const pleat_api& api, uint32_t n) {
 }
 
 FineSolution solve(const pleat_api& api, const FineSquare& square, const std::function<void()>& step) {
-  demo::SceneDef def;
-  def.name = square.name;
-  def.rate = 1.0 / kTick;
-  def.garment = flat_square(api, kFineSide);
-  def.pins = {0, kFineSide - 1};
-  def.settings = fine_settings(api);
-  demo::Scene scene(api, def);
-  constexpr uint32_t kParticles = kFineSide * kFineSide;
-  const std::vector<float> first = first_state(square);
-  scene.check(api.cloth_write_particles(scene.world(), scene.cloths()[0], first.data(), nullptr, kParticles), "start");
-  for (uint32_t i = 0; i < kSolveSteps; ++i) {
-    scene.advance();
-    step();
-  }
   FineSolution solution;
-  std::vector<float> velocities(3 * kParticles);
-  scene.read_particles(0, solution.positions);
-  scene.check(api.cloth_read_particles(scene.world(), scene.cloths()[0], nullptr, velocities.data(), kParticles),
-              "velocities");
-  solution.speed = 0.0;
-  for (size_t i = 0; i < velocities.size(); i += 3) {
-    solution.speed = std::max(solution.speed, double(std::hypot(velocities[i], velocities[i + 1], velocities[i + 2])));
+  solution.positions = first_state(square, kSides[0]);
+  for (const uint32_t n : kSides) {
+    if (n != kSides[0]) solution.positions = refined(solution.positions, (n + 1) / 2);
+    solution = relaxed(api, square, n, solution.positions, step);
   }
   return solution;
 }

@@ -31,7 +31,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--repeat", repeat, "runs; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option_function<std::string>(
       "--surface", [&](const std::string& mode) { request.settings.push_back("surface=" + mode); },
-      "flat, pn, paper or pleat (default)");
+      "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
   app.add_option("--threads", threads, "the library uses one")->check(CLI::Range(1, 1))->capture_default_str();
   app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
   try {

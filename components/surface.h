@@ -8,7 +8,18 @@
 namespace pleat {
 
 /// How the surface is shaped; the values are those of PLEAT_SURFACE_* in engine/pleat.h.
-enum class SurfaceMode : std::uint32_t { kFlat = 0, kPn = 1, kPaper = 2, kPleat = 3 };
+enum class SurfaceMode : std::uint32_t {
+  kFlat = 0,
+  kPn = 1,
+  kPaper = 2,
+  kPleat = 3,
+  kPhong = 4,
+  kSpherigon = 5,
+  kArcPn = 6
+};
+
+/// Whether edge length control has a say.
+constexpr bool has_folds(SurfaceMode mode) { return mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat; }
 
 /// One element per coarse particle (normal) or edge (the others). Only where a cloth is drawn curved.
 struct SurfaceColumns {

@@ -37,7 +37,8 @@ void add_run_options(CLI::App& run, RunOptions& options) {
   const auto setting = [&scene](const char* key) {
     return [&scene, key](const std::string& value) { scene.settings.push_back(std::string(key) + "=" + value); };
   };
-  run.add_option_function<std::string>("--surface", setting("surface"), "flat, pn, paper or pleat (default)");
+  run.add_option_function<std::string>("--surface", setting("surface"),
+                                       "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
   run.add_option_function<std::string>("--level", setting("level"), "triangles a face: fan (18) or n = 1..8 (4 n^2)");
   run.add_option("--set", scene.settings, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
   run.add_option("--out", options.out, "folder for pictures")->type_name("DIR")->capture_default_str();

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demo/quality/scene_quality.h"
 #include "demo/program/progress.h"
+#include "demo/quality/scene_quality.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
 #include "demo/view.h"

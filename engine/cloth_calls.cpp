@@ -46,7 +46,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("thickness", s.thickness, 0, 1);
   need_range("friction", s.friction, 0, 10);
   need_range("face_response", s.face_response, 0, PLEAT_FACE_RESPONSE_WHOLE);
-  need_range("surface", s.surface, 0, PLEAT_SURFACE_PLEAT);
+  need_range("surface", s.surface, 0, PLEAT_SURFACE_ARC_PN);
   need_range("level", s.level, 0, PLEAT_LEVEL_MAX);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }

@@ -15,9 +15,9 @@ const pleat_collider_def& default_collider() {
   return def;
 }
 
+#ifdef PLEAT_WITH_COLLISION
 constexpr std::uint32_t kMostBodyTriangles = 2'000'000;
 
-#ifdef PLEAT_WITH_COLLISION
 Vec3 as_vec3(const float v[3]) { return {v[0], v[1], v[2]}; }
 
 void need_inside(const char* name, const float v[3]) {

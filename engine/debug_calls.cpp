@@ -7,8 +7,10 @@
 namespace pleat::call {
 namespace {
 
-constexpr std::uint32_t kGrey = 0x808080ffu, kYellow = 0xf2d21fffu, kOrange = 0xf27a1fffu, kPurple = 0x9a3fd1ffu,
-                        kBlue = 0x3f7fd1ffu;
+constexpr std::uint32_t kGrey = 0x808080ffu, kBlue = 0x3f7fd1ffu;
+#ifdef PLEAT_WITH_SMOOTHING
+constexpr std::uint32_t kYellow = 0xf2d21fffu, kOrange = 0xf27a1fffu, kPurple = 0x9a3fd1ffu;
+#endif
 
 struct Lines {
   pleat_line_fn draw;
@@ -26,12 +28,12 @@ void draw_edges(const Garment& g, ConstVec3View x, const Lines& lines) {
   }
 }
 
+#ifdef PLEAT_WITH_SMOOTHING
 void draw_normals(const Garment& g, ConstVec3View x, ConstVec3View normal, std::uint32_t rgba, const Lines& lines) {
   const float stick = 0.3f * g.mean_edge_length;
   for (std::uint32_t i = 0; i < g.particle_count; ++i) lines.line(x[i], x[i] + normal[i] * stick, rgba);
 }
 
-#ifdef PLEAT_WITH_SMOOTHING
 /// The normals as they would be without normal control.
 void draw_base_normals(const World& world, const ClothRecord& cloth, const Lines& lines) {
   const Garment& g = cloth.garment();
@@ -88,7 +90,7 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
       if ((what & PLEAT_DEBUG_FORCE_NORMALS) && mode != PLEAT_SURFACE_FLAT) {
         draw_normals(cloth.garment(), x, world.surface.normal.view().from(cloth.particle_begin), kOrange, lines);
       }
-      if ((what & PLEAT_DEBUG_EDGE_LENGTH) && (mode == PLEAT_SURFACE_PAPER || mode == PLEAT_SURFACE_PLEAT)) {
+      if ((what & PLEAT_DEBUG_EDGE_LENGTH) && has_folds(static_cast<SurfaceMode>(mode))) {
         draw_folds(world, cloth, lines);
       }
 #endif

@@ -20,7 +20,7 @@ void HostMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t alig
   if (release_ != nullptr) {
     release_(memory, bytes, alignment, user_);
   } else {
-    ::operator delete (memory, bytes, std::align_val_t{alignment});
+    ::operator delete (memory, std::align_val_t{alignment});
   }
 }
 

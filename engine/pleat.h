@@ -164,7 +164,11 @@ enum {
   PLEAT_SURFACE_FLAT = 0,  /* the coarse triangles, subdivided in their planes */
   PLEAT_SURFACE_PN = 1,    /* curved PN triangles (Vlachos et al. 2001) */
   PLEAT_SURFACE_PAPER = 2, /* the paper's rules to the letter: normals by force, one outward fold on a short edge */
-  PLEAT_SURFACE_PLEAT = 3  /* default: calm normals, folds to the side the cloth already bulges to */
+  PLEAT_SURFACE_PLEAT = 3, /* default: calm normals, folds to the side the cloth already bulges to */
+  /* Other ways to curve a triangle, without folds, for comparison with PN. */
+  PLEAT_SURFACE_PHONG = 4,     /* Phong tessellation (Boubekeur and Alexa 2008) */
+  PLEAT_SURFACE_SPHERIGON = 5, /* Volino and Magnenat-Thalmann 1998 */
+  PLEAT_SURFACE_ARC_PN = 6     /* PN triangles with the tangents of circular arcs */
 };
 enum {
   PLEAT_FACE_RESPONSE_WEIGHTED = 0, /* default: each corner moves by its share in the touching point */

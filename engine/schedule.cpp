@@ -43,7 +43,7 @@ void make_room(World& world, const ClothRecord& cloth) {
   }
   const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
   if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(particles);
-  const bool folded = curved && cloth.settings.surface != PLEAT_SURFACE_PN;
+  const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
   if (folded || world.surface.fold.size() != 0) {
     std::size_t edges = 0;
     for (const ClothRecord& other : world.clothes) edges += padded(other.garment().edge_count);

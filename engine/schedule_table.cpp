@@ -72,8 +72,8 @@ const char* with_normals(const World&, const ClothRecord& c) {
 }
 const char* with_folds(const World&, const ClothRecord& c) {
   return c.settings.surface == PLEAT_SURFACE_FLAT ? "flat surface"
-         : c.settings.surface == PLEAT_SURFACE_PN ? "PN surface, edges keep their curve"
-                                                  : kNeeded;
+         : has_folds(surface_mode(c.settings))    ? kNeeded
+                                                  : "surface without folds, edges keep their curve";
 }
 #endif
 

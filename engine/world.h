@@ -107,7 +107,7 @@ struct World {
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
   Column<float> detection_scratch;
-  Vec3Column footprint;
+  Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
   std::uint32_t capsule_pose_count = 0, contact_count = 0;
 

@@ -146,8 +146,8 @@ void run_paper(const EdgeLength& s) {
 }  // namespace
 
 bool EdgeLength::validate() const {
-  return (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) && garment != nullptr && position.x != nullptr &&
-         normal.x != nullptr && fold.x != nullptr && fold_height != nullptr;
+  return has_folds(mode) && garment != nullptr && position.x != nullptr && normal.x != nullptr && fold.x != nullptr &&
+         fold_height != nullptr;
 }
 
 void EdgeLength::run() const { mode == SurfaceMode::kPaper ? run_paper(*this) : run_pleat(*this); }

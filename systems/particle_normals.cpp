@@ -68,18 +68,17 @@ void sum_normals(const ParticleNormals& s) {
 }  // namespace
 
 bool ParticleNormals::validate() const {
-  return mode <= SurfaceMode::kPleat && garment != nullptr && position.x != nullptr && normal.x != nullptr;
+  return mode <= SurfaceMode::kArcPn && garment != nullptr && position.x != nullptr && normal.x != nullptr;
 }
 
 void ParticleNormals::run() const {
   switch (mode) {
-    case SurfaceMode::kFlat:
-    case SurfaceMode::kPn:
-      return sum_normals<SurfaceMode::kPn>(*this);
     case SurfaceMode::kPaper:
       return sum_normals<SurfaceMode::kPaper>(*this);
     case SurfaceMode::kPleat:
       return sum_normals<SurfaceMode::kPleat>(*this);
+    default:
+      return sum_normals<SurfaceMode::kPn>(*this);
   }
 }
 

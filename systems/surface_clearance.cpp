@@ -1,6 +1,7 @@
 #include "systems/surface_clearance.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "systems/closest_points.h"
 
@@ -10,76 +11,137 @@ namespace {
 constexpr int kMostSweeps = 8;          // one settles planes that agree; opposed ones converge within a few
 constexpr float kSettledDepth = 1e-6f;  // m behind a plane that is not worth another sweep
 
-/// A small flat triangle and how far its drawn vertices are from their places on it.
-struct Footprint {
-  Vec3 a, b, c;
-  float bulge;  // m, the largest
-
-  Vec3 center() const { return (a + b + c) * (1.0f / 3.0f); }
-};
-
-/// From the nearest point of segment pq to that of the triangle; zero where they touch.
-Vec3 from_core(const Footprint& t, const Vec3& p, const Vec3& q) {
-  Vec3 nearest = closest_on_triangle(p, t.a, t.b, t.c).point(t.a, t.b, t.c) - p;
-  const auto consider = [&nearest](const Vec3& d) {
-    if (dot(d, d) < dot(nearest, nearest)) nearest = d;
+/// From the nearest point of segment pq to that of triangle abc; short or zero where they cross. The two come closest
+/// on a side of the triangle or at an end of the segment that is over its inside.
+Vec3 from_core(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 corner[] = {a, b, c, a};
+  Vec3 nearest;
+  float nearest2 = std::numeric_limits<float>::max();
+  const auto consider = [&](const Vec3& d) {
+    if (dot(d, d) < nearest2) nearest = d, nearest2 = dot(d, d);
   };
-  if (p == q) return nearest;
-  consider(closest_on_triangle(q, t.a, t.b, t.c).point(t.a, t.b, t.c) - q);
-  const Vec3 corner[] = {t.a, t.b, t.c, t.a};
   for (int k = 0; k < 3; ++k) {
     const SegmentPair at = closest_between_segments(corner[k], corner[k + 1], p, q);
     consider(lerp(corner[k], corner[k + 1], at.s) - lerp(p, q, at.t));
   }
+  const Vec3 u = b - a, v = c - a, area = cross(u, v);
+  const float area2 = dot(area, area);
+  for (const Vec3& end : {p, q}) {
+    const Vec3 w = end - a;
+    const float wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
+    if (wb > 0.0f && wc > 0.0f && wb + wc < area2) consider(area * (-dot(w, area) / area2));
+  }
   return nearest;
 }
 
-float distance_to_core(const Vec3& x, const CapsulePose& c) {
-  return length(x - lerp(c.a, c.b, closest_on_segment(x, c.a, c.b)));
-}
+/// The drawn vertices of one face in the face's own numbering, and what a capsule makes of them.
+struct FaceVertices {
+  static constexpr std::uint32_t kRoom = kMaxVerticesPerFace;
+  const std::uint32_t* drawn;
+  std::uint32_t count;
+  float longest_side2;                    // m2, of a footprint at most, squared
+  Vec3 center;                            // m, of the face
+  float size, bulge;                      // m, from the center to the furthest corner; of the vertices, the largest
+  float x[kRoom], y[kRoom], z[kRoom];     // m, on the coarse triangle
+  float dx[kRoom], dy[kRoom], dz[kRoom];  // m, from there to where they are drawn
+  float moved2[kRoom];                    // m2, the length of that, squared
+  float distance2[kRoom];                 // m2, from the core to the place on the coarse triangle, squared
+  float retreat[kRoom];                   // m2, that vector times the motion: negative towards the core
+
+  FaceVertices(const SurfaceClearance& in, std::uint32_t f)
+      : drawn(in.pattern->face_vertices.data() + std::size_t{f} * in.pattern->vertices_per_face),
+        count(in.pattern->vertices_per_face) {
+    const ConstVec3View to = in.drawn_position;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t v = drawn[i];
+      x[i] = in.footprint.x[v], y[i] = in.footprint.y[v], z[i] = in.footprint.z[v];
+      dx[i] = to.x[v] - x[i], dy[i] = to.y[v] - y[i], dz[i] = to.z[v] - z[i];
+    }
+    for (std::uint32_t i = 0; i < count; ++i) moved2[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
+    float bulge2 = 0.0f;
+    for (std::uint32_t i = 0; i < count; ++i) bulge2 = std::max(bulge2, moved2[i]);
+    bulge = std::sqrt(bulge2);
+    const Vec3 a = at(0), b = at(1), c = at(2);
+    center = (a + b + c) * (1.0f / 3.0f);
+    size = std::max({length(a - center), length(b - center), length(c - center)});
+    // A footprint joins neighbours on the grid of the pattern; in the fan also the center to an edge's middle.
+    const float share = in.pattern->level == 0 ? 1.0f / 3.0f : 1.0f / static_cast<float>(in.pattern->segments);
+    longest_side2 = share * share * std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+  }
+
+  Vec3 at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
+  bool any_nearer_than(float limit2) const {
+    int any = 0;
+    for (std::uint32_t i = 0; i < count; ++i) any |= distance2[i] < limit2;
+    return any != 0;
+  }
+
+  void measure(const CapsulePose& c) {
+    const Vec3 axis = c.b - c.a;
+    const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec3 p = at(i) - c.a;
+      const Vec3 away = p - axis * std::min(std::max(dot(p, axis) * inverse, 0.0f), 1.0f);
+      distance2[i] = dot(away, away);
+      retreat[i] = away.x * dx[i] + away.y * dy[i] + away.z * dz[i];
+    }
+  }
+};
 
 struct Lifter {
   const SurfaceClearance& in;
   std::uint32_t count = 0;
 
-  float squared_bulge(std::uint32_t v) const {
-    const Vec3 d = in.drawn_position[v] - in.footprint[v];
-    return dot(d, d);
-  }
-
   void gather(std::uint32_t f) {
-    const TessellationPattern& pattern = *in.pattern;
-    const std::uint32_t* own = pattern.face_vertices.data() + std::size_t{f} * pattern.vertices_per_face;
-    float bulge2 = 0.0f;
-    for (std::uint32_t v = 0; v < pattern.vertices_per_face; ++v) bulge2 = std::max(bulge2, squared_bulge(own[v]));
-    const float bulge = std::sqrt(bulge2);
-
-    const Vec3 a = in.footprint[own[0]], b = in.footprint[own[1]], c = in.footprint[own[2]];
-    const Vec3 center = (a + b + c) * (1.0f / 3.0f);
-    const float size = std::max({length(a - center), length(b - center), length(c - center)});
+    FaceVertices face(in, f);
     for (std::uint32_t k = 0; k < in.capsule_count; ++k) {
-      const float kept = in.capsules[k].radius + in.clearance;
-      if (distance_to_core(center, in.capsules[k]) >= kept + size + bulge) continue;
-      for (std::size_t t = 0; t < pattern.face_triangles.size(); t += 3) {
-        const std::uint32_t* corner = pattern.face_triangles.data() + t;
-        add_plane(own[corner[0]], own[corner[1]], own[corner[2]], in.capsules[k], kept);
-      }
+      const CapsulePose& capsule = in.capsules[k];
+      const float kept = capsule.radius + in.clearance, near = kept + face.size + face.bulge;
+      const Vec3 away = face.center - lerp(capsule.a, capsule.b, closest_on_segment(face.center, capsule.a, capsule.b));
+      if (dot(away, away) >= near * near) continue;
+      face.measure(capsule);
+      add_planes(face, capsule, kept);
     }
   }
 
-  void add_plane(std::uint32_t i, std::uint32_t j, std::uint32_t k, const CapsulePose& capsule, float kept) {
-    const Vec3 a = in.footprint[i], b = in.footprint[j], c = in.footprint[k];
-    const float bulge = std::sqrt(std::max({squared_bulge(i), squared_bulge(j), squared_bulge(k)}));
-    const Vec3 center = (a + b + c) * (1.0f / 3.0f);
-    const float size = std::max({length(a - center), length(b - center), length(c - center)});
-    if (distance_to_core(center, capsule) >= kept + size + bulge) return;
-    const Vec3 away = from_core({a, b, c, bulge}, capsule.a, capsule.b);
+  void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept) {
+    const float far = kept + face.bulge, far2 = far * far + face.longest_side2 * (1.0f / 3.0f);
+    if (!face.any_nearer_than(far2)) return;
+    const std::uint32_t* t = in.pattern->face_triangles.data();
+    const std::uint32_t* end = t + in.pattern->face_triangles.size();
+    for (; t != end; t += 3) {
+      const float nearest2 = std::min({face.distance2[t[0]], face.distance2[t[1]], face.distance2[t[2]]});
+      if (nearest2 < far2 && !stays_out(face, t, nearest2, kept)) add_plane(face, t, capsule, kept);
+    }
+  }
+
+  /// Without the plane, from below. A footprint of longest side s whose corners are at least d from the core is
+  /// D >= sqrt(d^2 - s^2/3) from it, for no point of it is further than s/sqrt(3) from all corners. Over the footprint
+  /// the direction away from the core turns by at most s/D, so a vertex that moves by m and approaches the core by h,
+  /// as seen from its own place, falls towards the core by at most h + m s/D.
+  static bool stays_out(const FaceVertices& face, const std::uint32_t* t, float nearest2, float kept) {
+    const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
+    const float side2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+    const float distance2 = nearest2 - side2 * (1.0f / 3.0f);
+    if (distance2 <= kept * kept) return false;
+    const float distance = std::sqrt(distance2), turn = std::sqrt(side2) / distance;
+    float fall = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+      const float moved = std::sqrt(face.moved2[t[k]]),
+                  approach = -face.retreat[t[k]] / std::sqrt(face.distance2[t[k]]);
+      fall = std::max(fall, approach + moved * turn);
+    }
+    return distance >= kept + fall;
+  }
+
+  void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule, float kept) {
+    const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
+    const Vec3 away = from_core(capsule.a, capsule.b, a, b, c);
     const float distance = length(away);
-    if (distance >= kept + bulge) return;
     const Vec3 normal = distance > 1e-9f ? away * (1.0f / distance) : normalized_or(cross(b - a, c - a), Vec3{0, 1, 0});
     const float height = std::max(dot(normal, capsule.a), dot(normal, capsule.b)) + kept;
     if (count == in.plane_capacity) settle();
-    in.planes[count++] = {normal, height, {i, j, k}};
+    in.planes[count++] = {normal, height, {face.drawn[t[0]], face.drawn[t[1]], face.drawn[t[2]]}};
   }
 
   void settle() {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "components/pn_edge.h"
-#include "components/pn_triangle.h"
+#include "components/arc_pn.h"
+#include "components/projected_triangle.h"
 #include "components/vec3_block.h"
 
 namespace pleat {
@@ -34,8 +34,9 @@ PnEdge pn_edge(const Tessellation& s, std::uint32_t e) {
   return {s.position[i], s.position[j], s.normal[i], s.normal[j]};
 }
 
-/// kPn, and with `folded` kPleat: the vertices on edges.
-void draw_curved_edges(const Tessellation& s, bool folded) {
+/// kPn, kArcPn, and with folds kPleat: the vertices on edges.
+template <SurfaceMode mode>
+void draw_curved_edges(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
@@ -46,13 +47,16 @@ void draw_curved_edges(const Tessellation& s, bool folded) {
       const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
       a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
       b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
-      if (folded) moved.set(lane, s.fold[e] * s.fold_height[e]);
+      if constexpr (mode == SurfaceMode::kPleat) moved.set(lane, s.fold[e] * s.fold_height[e]);
     }
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
       const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
       const float share = fold_shape(t);
       for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        x.set(lane, PnEdge(a[lane], b[lane], na[lane], nb[lane]).point(t) + moved[lane] * share);
+        constexpr bool kArc = mode == SurfaceMode::kArcPn;
+        const PnEdge edge =
+            kArc ? arc_edge(a[lane], b[lane], na[lane], nb[lane]) : PnEdge(a[lane], b[lane], na[lane], nb[lane]);
+        x.set(lane, edge.point(t) + moved[lane] * share);
       }
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
@@ -61,8 +65,9 @@ void draw_curved_edges(const Tessellation& s, bool folded) {
   }
 }
 
-/// kPn, and with `folded` kPleat: the vertices inside faces.
-void draw_curved_faces(const Tessellation& s, bool folded) {
+/// kPn, kArcPn, and with folds kPleat: the vertices inside faces.
+template <SurfaceMode mode>
+void draw_curved_faces(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
   for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
@@ -74,15 +79,18 @@ void draw_curved_faces(const Tessellation& s, bool folded) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         corner[k].set(lane, s.position[g.face_particle[k][f]]);
         normal[k].set(lane, s.normal[g.face_particle[k][f]]);
-        const std::uint32_t e = g.face_edge[k][f];
-        if (!folded || s.fold_height[e] == 0.0f) continue;
-        moved[k].set(lane, s.fold[e] * s.fold_height[e]);
-        any_fold = true;
+        if constexpr (mode == SurfaceMode::kPleat) {
+          const std::uint32_t e = g.face_edge[k][f];
+          if (s.fold_height[e] == 0.0f) continue;
+          moved[k].set(lane, s.fold[e] * s.fold_height[e]);
+          any_fold = true;
+        }
       }
     }
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const PnTriangle face({corner[0][lane], corner[1][lane], corner[2][lane]},
-                            {normal[0][lane], normal[1][lane], normal[2][lane]});
+      const Vec3 p[3] = {corner[0][lane], corner[1][lane], corner[2][lane]};
+      const Vec3 n[3] = {normal[0][lane], normal[1][lane], normal[2][lane]};
+      const PnTriangle face = mode == SurfaceMode::kArcPn ? arc_triangle(p, n) : PnTriangle(p, n);
       for (std::size_t i = 0; i < 6; ++i) bend[i].set(lane, face.bend[i]);
     }
     for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
@@ -98,6 +106,57 @@ void draw_curved_faces(const Tessellation& s, bool folded) {
           x.set(lane, x[lane] + (moved[0][lane] * q.fold[0] + moved[1][lane] * q.fold[1] + moved[2][lane] * q.fold[2]));
         }
       }
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        s.drawn_position.set(pattern.face_vertex(begin + lane, i), x[lane]);
+      }
+    }
+  }
+}
+
+template <SurfaceMode mode>
+void draw_curved(const Tessellation& s) {
+  draw_curved_edges<mode>(s);
+  draw_curved_faces<mode>(s);
+}
+
+using LiftedPoint = Vec3 (*)(const Vec3 (&)[3], const Vec3 (&)[3], const float (&)[3]);
+
+/// kPhong, kSpherigon.
+template <LiftedPoint point>
+void draw_lifted(const Tessellation& s) {
+  const Garment& g = *s.garment;
+  const TessellationPattern& pattern = *s.pattern;
+  Vec3Block p[3], n[3], x;
+  const auto gather = [&](std::uint32_t lane, std::size_t corner, std::uint32_t i) {
+    p[corner].set(lane, s.position[i]), n[corner].set(lane, s.normal[i]);
+  };
+  const auto lift = [&](const float(&weight)[3]) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      x.set(lane, point({p[0][lane], p[1][lane], p[2][lane]}, {n[0][lane], n[1][lane], n[2][lane]}, weight));
+    }
+  };
+  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t e = begin + std::min(lane, count - 1);
+      for (std::size_t k = 0; k < 3; ++k) gather(lane, k, g.edge_particle[k % 2][e]);  // the third has weight 0
+    }
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
+      lift({1.0f - t, t, 0.0f});
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
+      }
+    }
+  }
+  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t f = begin + std::min(lane, count - 1);
+      for (std::size_t k = 0; k < 3; ++k) gather(lane, k, g.face_particle[k][f]);
+    }
+    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
+      lift(pattern.inner[i].face);
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         s.drawn_position.set(pattern.face_vertex(begin + lane, i), x[lane]);
       }
@@ -145,9 +204,8 @@ void draw_paper(const Tessellation& s) {
 
 bool Tessellation::validate() const {
   const bool curved = mode != SurfaceMode::kFlat;
-  const bool folded = mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat;
-  return mode <= SurfaceMode::kPleat && garment != nullptr && pattern != nullptr && position.x != nullptr &&
-         (!curved || normal.x != nullptr) && (!folded || (fold.x != nullptr && fold_height != nullptr)) &&
+  return mode <= SurfaceMode::kArcPn && garment != nullptr && pattern != nullptr && position.x != nullptr &&
+         (!curved || normal.x != nullptr) && (!has_folds(mode) || (fold.x != nullptr && fold_height != nullptr)) &&
          drawn_position.x != nullptr;
 }
 
@@ -160,11 +218,17 @@ void Tessellation::run() const {
     case SurfaceMode::kFlat:
       return draw_flat(*this);
     case SurfaceMode::kPn:
-      return draw_curved_edges(*this, false), draw_curved_faces(*this, false);
+      return draw_curved<SurfaceMode::kPn>(*this);
     case SurfaceMode::kPaper:
       return draw_paper(*this);
     case SurfaceMode::kPleat:
-      return draw_curved_edges(*this, true), draw_curved_faces(*this, true);
+      return draw_curved<SurfaceMode::kPleat>(*this);
+    case SurfaceMode::kPhong:
+      return draw_lifted<phong_point>(*this);
+    case SurfaceMode::kSpherigon:
+      return draw_lifted<spherigon_point>(*this);
+    case SurfaceMode::kArcPn:
+      return draw_curved<SurfaceMode::kArcPn>(*this);
   }
 }
 

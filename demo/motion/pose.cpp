@@ -56,6 +56,16 @@ Pose rest_pose(const Skeleton& skeleton) {
   return place_joints(skeleton, [](const Joint& joint) { return LocalPose{joint.offset}; });
 }
 
+Pose pose_to_first_frame(const Clip& clip, double share) {
+  return place_joints(clip.skeleton, [&](const Joint& joint) {
+    const LocalPose first = local_pose(joint, clip.frames.data());
+    if (joint.parent < 0) return first;
+    const LocalPose rest{joint.offset};
+    return LocalPose{rest.position + share * (first.position - rest.position),
+                     rest.rotation.slerp(share, first.rotation)};
+  });
+}
+
 Pose pose_at_frame(const Clip& clip, std::size_t frame) {
   const double* row = clip.frames.data() + frame * clip.skeleton.channel_count;
   return place_joints(clip.skeleton, [row](const Joint& joint) { return local_pose(joint, row); });

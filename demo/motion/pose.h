@@ -17,6 +17,10 @@ struct Pose {
 /// All rotations zero, all joints at their offsets.
 Pose rest_pose(const Skeleton& skeleton);
 
+/// A part of the way from the rest pose, its root already where the first frame has it, to the first frame.
+/// share: 0 at rest .. 1 in the first frame.
+Pose pose_to_first_frame(const Clip& clip, double share);
+
 /// As recorded; frame < clip.frame_count().
 Pose pose_at_frame(const Clip& clip, std::size_t frame);
 

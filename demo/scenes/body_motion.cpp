@@ -1,5 +1,6 @@
 #include "demo/scenes/body_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,6 +13,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
+constexpr double kStepIn = 1.0;  // s
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 CapsulePose capsule(const Eigen::Isometry3d& hips, const Vector3d& a, const Vector3d& b, double radius) {
@@ -27,6 +29,12 @@ void add_leg(BodyPose& pose, double x, double a, double b) {
   pose.capsules.push_back(capsule(pose.hips, hip, knee, 0.075));
   pose.capsules.push_back(capsule(pose.hips, knee, ankle, 0.055));
   pose.capsules.push_back(capsule(pose.hips, ankle, toe, 0.045));
+}
+
+/// How far a figure has stepped from its rest pose into the first frame, which it reaches half of the time before it.
+double step_in(double seconds) {
+  const double t = std::clamp(2.0 * (1.0 + seconds / kStepIn), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 }  // namespace
@@ -49,7 +57,7 @@ BodyMotion make_kick(double thigh, double knee) {
 
 BodyMotion make_clip_motion(Clip clip, Figure figure) {
   return [clip = std::move(clip), figure = std::move(figure)](double seconds) {
-    const Pose pose = pose_at(clip, seconds);
+    const Pose pose = seconds < 0.0 ? pose_to_first_frame(clip, step_in(seconds)) : pose_at(clip, seconds);
     return BodyPose{hips_at(figure, pose), capsules_at(figure, pose), figure.first_arm};
   };
 }

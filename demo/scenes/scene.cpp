@@ -34,14 +34,18 @@ Scene::Scene(const pleat_api& api, SceneDef def, pleat_stage_fn stage, void* sta
   world_def.stage_user = stage_user;
   check(api_.world_create(&world_def, &world_), "world");
   try {
-    if (def_.motion) body_ = def_.motion(0.0);
+    if (def_.motion) body_ = def_.motion(-def_.settle);
     from_first_hips_ = body_.hips.inverse();
     create_garment();
     create_copies();
     create_fixed_bodies();
     place_pins();
     const long settling = def_.motion ? std::lround(def_.settle * def_.rate) : 0;
-    for (long tick = 0; tick < settling; ++tick) step();
+    for (long tick = 1; tick <= settling; ++tick) {
+      body_ = def_.motion(double(tick - settling) / def_.rate);
+      place_pins();
+      step();
+    }
   } catch (...) {
     api_.world_destroy(world_);
     throw;

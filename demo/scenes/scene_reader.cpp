@@ -122,7 +122,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (const auto view = scene.find("view")) def.view = view->vector(-1.0, 1.0);
 
   std::optional<Wearer> wearer;
-  if (motion.figure) wearer = Wearer{&*motion.figure, motion.motion(0.0).hips};
+  if (motion.figure) wearer = Wearer{&*motion.figure, motion.motion(-motion.settle).hips};
   Garment garment = read_garment(scene.at("garment"), file, api, wearer ? &*wearer : nullptr);
   def.garment = std::move(garment.mesh);
   def.pins = std::move(garment.pins);

@@ -12,10 +12,10 @@ using S = pleat_cloth_settings;
 constexpr SettingWord kIntegratorWords[] = {{"symplectic-euler", PLEAT_INTEGRATOR_SYMPLECTIC_EULER},
                                             {"explicit-euler", PLEAT_INTEGRATOR_EXPLICIT_EULER},
                                             {"runge-kutta-4", PLEAT_INTEGRATOR_RUNGE_KUTTA_4}};
-constexpr SettingWord kSurfaceWords[] = {{"flat", PLEAT_SURFACE_FLAT},
-                                         {"pn", PLEAT_SURFACE_PN},
-                                         {"paper", PLEAT_SURFACE_PAPER},
-                                         {"pleat", PLEAT_SURFACE_PLEAT}};
+constexpr SettingWord kSurfaceWords[] = {{"flat", PLEAT_SURFACE_FLAT},    {"pn", PLEAT_SURFACE_PN},
+                                         {"paper", PLEAT_SURFACE_PAPER},  {"pleat", PLEAT_SURFACE_PLEAT},
+                                         {"phong", PLEAT_SURFACE_PHONG},  {"spherigon", PLEAT_SURFACE_SPHERIGON},
+                                         {"arc-pn", PLEAT_SURFACE_ARC_PN}};
 constexpr SettingWord kFaceResponseWords[] = {{"weighted", PLEAT_FACE_RESPONSE_WEIGHTED},
                                               {"whole", PLEAT_FACE_RESPONSE_WHOLE}};
 constexpr SettingWord kLevelWords[] = {

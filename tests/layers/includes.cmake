@@ -1,6 +1,6 @@
 # Fails on an #include that runs against the layers:
 #
-#   components  <-  systems  <-  engine  <-  demo, bench
+#   components  <-  systems  <-  engine  <-  demo  <-  bench
 #
 # demo and bench know the engine by its C header alone; Bullet is behind systems/collision*, OSMesa and GL behind
 # demo/picture; a system does not include another one, only what several of them share.

@@ -148,7 +148,7 @@ TEST(ParticleNormals, ValidateRefusesWhatIsMissing) {
   EXPECT_FALSE(p.validate());
   p = s.particle_normals(), p.normal = {};
   EXPECT_FALSE(p.validate());
-  p = s.particle_normals(), p.mode = static_cast<SurfaceMode>(4);
+  p = s.particle_normals(), p.mode = static_cast<SurfaceMode>(7);
   EXPECT_FALSE(p.validate());
 }
 

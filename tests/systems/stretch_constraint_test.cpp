@@ -60,7 +60,7 @@ TEST(StretchConstraint, KeepsMomentum) {
   Sheet sheet(make_grid({.rows = 6, .columns = 6}));
   shake(sheet.position, sheet.count, 0.1f, 1);
   for (std::uint32_t i = 0; i < sheet.count; i += 3) sheet.mass[i] *= 5.0f, sheet.inverse_mass[i] /= 5.0f;
-  Vec3d moved, turned;
+  Vec3d moved;
   double size = 0.0;
   const Sheet before = [&] {
     Sheet copy(make_grid({.rows = 6, .columns = 6}));

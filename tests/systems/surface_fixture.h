@@ -77,7 +77,7 @@ struct Surface {
 
   void run() {
     particle_normals().run();
-    if (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) edge_length().run();
+    if (has_folds(mode)) edge_length().run();
     tessellation().run();
     drawn_normals().run();
   }

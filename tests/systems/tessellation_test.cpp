@@ -7,7 +7,9 @@
 namespace pleat {
 namespace {
 
-constexpr SurfaceMode kModes[] = {SurfaceMode::kFlat, SurfaceMode::kPn, SurfaceMode::kPaper, SurfaceMode::kPleat};
+constexpr SurfaceMode kModes[] = {SurfaceMode::kFlat,  SurfaceMode::kPn,    SurfaceMode::kPaper,
+                                  SurfaceMode::kPleat, SurfaceMode::kPhong, SurfaceMode::kSpherigon,
+                                  SurfaceMode::kArcPn};
 
 /// Largest distance between the drawn vertices of two surfaces of the same pattern, after mapping the first's.
 template <class F>

@@ -1,0 +1,37 @@
+// Arc-PN: PN triangles whose edges leave their ends as fast as a circular arc would.
+// The cubic of a PN edge that turns by 2 alpha has tangents too short by cos alpha cos^2(alpha/2): its bulge is at most
+// 1/8 of the chord where that of an arc goes on growing. Lengthened tangents make the error on circles of order 6.
+#pragma once
+
+#include "components/pn_edge.h"
+#include "components/pn_triangle.h"
+
+namespace pleat {
+
+/// What takes the place of (side.n) n in a PN edge or triangle; side: from the end with normal n to the other end, m.
+/// Beyond 75 degrees, cos alpha = 1/4, the tangent's length grows no further.
+inline Vec3 arc_bend(const Vec3& side, const Vec3& n) {
+  const Vec3 tangent = side - n * dot(side, n);
+  const float side2 = dot(side, side), cosine = std::sqrt(dot(tangent, tangent) / (side2 > 1e-30f ? side2 : 1e-30f));
+  const float bounded = cosine > 0.25f ? cosine : 0.25f;
+  return side - tangent * (2.0f / (bounded * (1.0f + bounded)));  // cos^2(alpha/2) = (1 + cos alpha) / 2
+}
+
+inline PnEdge arc_edge(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb) {
+  PnEdge edge(a, b, na, nb);
+  edge.u = arc_bend(edge.d, na);
+  edge.v = arc_bend(-edge.d, nb);
+  return edge;
+}
+
+inline PnTriangle arc_triangle(const Vec3 (&p)[3], const Vec3 (&n)[3]) {
+  PnTriangle triangle(p, n);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3;
+    triangle.bend[2 * k] = arc_bend(p[l] - p[k], n[k]);
+    triangle.bend[2 * k + 1] = arc_bend(p[k] - p[l], n[l]);
+  }
+  return triangle;
+}
+
+}  // namespace pleat
