@@ -143,7 +143,8 @@ std::string stage_group(const std::string& system) {
       {"mesh_detection", "collision"},    {"collision_response", "collision"},
       {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
       {"contact_velocity", "collision"},  {"collision_last_word", "collision"},
-      {"particle_normals", "normals"}};
+      {"surface_footprint", "clearance"}, {"surface_capsules", "clearance"},
+      {"surface_clearance", "clearance"}, {"particle_normals", "normals"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

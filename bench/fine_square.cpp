@@ -21,6 +21,7 @@ static_assert(std::endian::native == std::endian::little, "files are read as the
 constexpr uint32_t kSides[] = {17, 33, kFineSide};
 constexpr uint32_t kSubsteps = 64;
 constexpr double kSubstep = 0.008;    // s, over the number of edges along a side: what the springs bear
+constexpr double kFirstBulge = 0.01;  // m, so that a flat start has a side to give way to
 
 pleat_cloth_settings fine_settings(const pleat_api& api) {
   pleat_cloth_def def;
@@ -57,7 +58,7 @@ double wave_height(double width, double waves) {
   return low;
 }
 
-/// Lying level, sagging in waves across that take up what the pins leave over. n x n particles.
+/// Hanging straight down, in waves across that take up what the pins leave over. n x n particles.
 std::vector<float> first_state(const FineSquare& square, uint32_t n) {
   const double waves = square.half_waves * std::numbers::pi, height = wave_height(square.width, waves);
   std::vector<float> positions;
@@ -65,8 +66,8 @@ std::vector<float> first_state(const FineSquare& square, uint32_t n) {
     for (uint32_t column = 0; column < n; ++column) {
       const double u = double(column) / (n - 1), v = double(row) / (n - 1);
       positions.push_back(float(square.width * (u - 0.5)));
-      positions.push_back(float(-height * std::sin(waves * u)));
-      positions.push_back(float(v));
+      positions.push_back(float(-v));
+      positions.push_back(float(height * std::sin(waves * u) + kFirstBulge * std::sin(std::numbers::pi * v)));
     }
   }
   return positions;

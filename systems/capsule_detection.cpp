@@ -35,6 +35,25 @@ struct CapsuleTest {
   Vec3 core_step(float t) const { return lerp(capsule.step_a, capsule.step_b, t); }
   Vec3 core_before(float t) const { return core(t) - core_step(t); }
 
+  /// The distance to keep from the core at a point p of the cloth that is `missing` closer than it should be.
+  /// Where another capsule presses the cloth against this one and the gap is too narrow for it, each gives way by half
+  /// of what is missing, so that their rows meet half way and do not throw the cloth to and fro. That is for surfaces
+  /// that face each other; where they part at a right angle or wider the cloth can leave and neither gives way.
+  float distance_kept(const Vec3& p, const Vec3& normal, float missing) const {
+    float given = 0.0f;
+    for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
+      const CapsulePose& other = in.capsules[c];
+      const float needed = other.radius + in.thickness + missing;  // from the other's core, for room enough
+      if (&other == &capsule || needed <= 0.0f) continue;
+      const Vec3 away = p - lerp(other.a, other.b, closest_on_segment(p, other.a, other.b));
+      const float facing = -dot(normal, away), d2 = dot(away, away);
+      if (facing <= 0.0f || d2 >= needed * needed) continue;
+      const float d = std::sqrt(d2);
+      given = std::max(given, 0.5f * (needed - d) * std::min(1.0f, 2.0f * facing / d));  // in full within 60 degrees
+    }
+    return distance - given;
+  }
+
   void measure_particles() const {
     const Vec3 a = capsule.a, axis = capsule.b - capsule.a;
     const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
@@ -52,7 +71,8 @@ struct CapsuleTest {
     const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
     const Vec3 fallback = normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
     const Vec3 normal = dot(away, away) > 1e-12f ? normalized_or(away * side, fallback) : fallback;
-    rows.add(particle, weight, normal, core(t), distance, core_step(t), capsule.friction, at_particle, stats);
+    const float kept = distance_kept(core(t) + away, normal, distance - dot(normal, away));
+    rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats);
   }
 
   void test_particles(Stats& stats) const {
@@ -112,8 +132,10 @@ struct CapsuleTest {
         const float bi = 1.0f - bj - bk;
         const Vec3 before = in.previous[i] * bi + in.previous[j] * bj + in.previous[k] * bk - core_before(t);
         const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
-        rows.add({i, j, k}, {bi, bj, bk}, area * (side / std::sqrt(area2)), core(t), distance, core_step(t),
-                 capsule.friction, false, stats);
+        const Vec3 normal = area * (side / std::sqrt(area2));
+        const float away = -dot(w, normal);
+        const float kept = distance_kept(core(t) + normal * away, normal, distance - away);
+        rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
       }
     }
   }

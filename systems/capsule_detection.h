@@ -14,10 +14,12 @@ namespace pleat {
 /// Adds a row for each feature of the cloth nearer than radius + thickness + contact_margin to a capsule's core, at the
 /// end of the substep. The normal points to the side on which the feature was when the substep began, so that what has
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
-/// than radius + thickness.
+/// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
+/// on the middle: there it stays, calm and as deep in both, until they part.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules
 /// Writes: scratch (P + E); contacts, added to; stats.contacts_dropped
-/// Cost:   O((P + E + F) capsules), no allocation. Errors: none; features without extent make finite rows or none.
+/// Cost:   O((P + E + F + rows) capsules), no allocation.
+/// Errors: none; features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted

@@ -16,7 +16,7 @@ struct BodyPose {
   std::size_t touching = 0;                                ///< the first so many are colliders, the others only shown
 };
 
-/// A body's pose as a function of time in seconds, from 0 on.
+/// A body's pose as a function of time in seconds; before 0 it gets ready.
 using BodyMotion = std::function<BodyPose(double seconds)>;
 
 /// The analytic kick of workload W1, one kick a second: pelvis and two legs, seven capsules. At the height of the kick
@@ -24,8 +24,10 @@ using BodyMotion = std::function<BodyPose(double seconds)>;
 /// at 0 s is the world's.
 BodyMotion make_kick(double thigh, double knee);
 
-/// A recorded clip on a figure fitted to it. Before its first and after its last frame the body holds still. The arms
-/// are only shown: recorded hands swing through the hips of a fitted figure and would nail a skirt to them.
+/// A recorded clip on a figure fitted to it. A skirt is cut for the figure at rest, and a leg that strides in the first
+/// frame would begin outside of it; so the figure stands at rest until 1 s before frame 0, steps into that frame in
+/// half a second and holds it. After the last frame it holds still. The arms are only shown: recorded hands swing
+/// through the hips of a fitted figure and would nail a skirt to them.
 BodyMotion make_clip_motion(Clip clip, Figure figure);
 
 }  // namespace pleat::demo

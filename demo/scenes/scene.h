@@ -12,7 +12,7 @@ namespace pleat::demo {
 /// A scene that runs: a world with its cloths and bodies, one tick a frame. Frame f ends at (f + 1) / rate seconds.
 class Scene {
  public:
-  /// `stage` may be null: see pleat_world_def. Holds the first pose for def.settle seconds.
+  /// `stage` may be null: see pleat_world_def. Runs def.settle seconds up to frame 0.
   /// Throws InputError where the engine refuses what the scene asks for, std::runtime_error for a fault of ours.
   Scene(const pleat_api& api, SceneDef def, pleat_stage_fn stage = nullptr, void* stage_user = nullptr);
   ~Scene();

@@ -23,7 +23,7 @@ struct SceneDef {
   std::string name;       ///< as the user asked for it: `drape_sphere:32`
   double rate = 60.0;     ///< frames a second
   uint32_t frames = 300;  ///< a run's length
-  double settle = 0.0;    ///< s that the first pose is held before frame 0
+  double settle = 0.0;    ///< s of `motion` before frame 0: it begins at -settle
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};
   Eigen::Vector3d wind{0.0, 0.0, 0.0};
   TriangleMesh garment;        ///< at rest, where it starts

@@ -141,6 +141,11 @@ TEST(Garment, HingeKnowsItsAngleAndShape) {
   EXPECT_LT(garment_of(hinge(0.3f)).hinge_rest_angle[0] * garment_of(hinge(-0.3f)).hinge_rest_angle[0], 0.0f);
 }
 
+TEST(Garment, HingeShapeIsTheEdgeSquaredOverBothAreas) {
+  const Garment g = garment_of({{{0, 0, 0}, {2, 0, 0}, {0, 0, -1}, {0, 0, 3}}, {{0, 1, 2}, {1, 0, 3}}});
+  EXPECT_FLOAT_EQ(g.hinge_shape[0], 4.0f / (1.0f + 3.0f));
+}
+
 TEST(Garment, CylinderTurnsByTheSameAngleAtEachPanel) {
   constexpr std::uint32_t n = 12;
   const std::array<Ring, 2> rings{{{n, 1.0f, 0.5f}, {n, 1.0f, -0.5f}}};

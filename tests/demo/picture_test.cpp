@@ -99,7 +99,7 @@ int brightness_at(const Image& image, const Camera& camera, const Vector3f& poin
   return brightness(image, static_cast<int>(x), static_cast<int>(y));
 }
 
-TEST(Picture, LooksAsItDid) {
+TEST(PictureGolden, LooksAsItDid) {
   const Image image = Renderer(224, 126).draw(example());
   const std::filesystem::path path = std::filesystem::path(PLEAT_GOLDEN_DIR) / "picture.png";
   if (std::getenv("PLEAT_UPDATE_GOLDEN")) write_small_png(path, image);

@@ -76,6 +76,20 @@ TEST(Pose, HoldsTheEndsOfTheClip) {
   expect_near(pose_at(clip, std::numeric_limits<double>::quiet_NaN()).position[0], {0.1, 0.02, 0.03});
 }
 
+TEST(Pose, StepsFromRestIntoTheFirstFrame) {
+  const Clip clip = arm("4 Xposition Zrotation Xrotation Yrotation", "10 90 0 0 0 80 0\n0 0 0 0 0 0 0", 2);
+  const Pose rest = pose_to_first_frame(clip, 0.0), half = pose_to_first_frame(clip, 0.5);
+  const Pose first = pose_at_frame(clip, 0);
+  for (const Pose* pose : {&rest, &half}) {  // the root waits where it will be needed
+    expect_near(pose->position[0], first.position[0]);
+    EXPECT_EQ(pose->rotation[0].angularDistance(first.rotation[0]), 0.0);
+  }
+  const double whole = rest.rotation[1].angularDistance(first.rotation[1]);
+  EXPECT_NEAR(whole, 80 * std::numbers::pi / 180, 1e-9);
+  EXPECT_NEAR(half.rotation[1].angularDistance(first.rotation[1]), 0.5 * whole, 1e-9);
+  EXPECT_NEAR(pose_to_first_frame(clip, 1.0).rotation[1].angularDistance(first.rotation[1]), 0.0, 1e-9);
+}
+
 /// Assimp as an oracle: its nodes and animation channels, put together here, must place every joint where we do.
 /// It too lets position channels replace the root's offset; it keeps end sites as nodes of their own.
 class AgainstAssimp : public testing::TestWithParam<const char*> {

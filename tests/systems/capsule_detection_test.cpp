@@ -142,6 +142,43 @@ TEST(CapsuleDetection, MovingCapsuleCarriesTheParticle) {
   }
 }
 
+TEST(CapsuleDetection, OverlappingCapsulesMeetHalfWay) {
+  // 20 mm deep in each other: their surfaces are at z = 10 mm and z = -10 mm.
+  const std::vector<CapsulePose> capsules = {
+      {.a = {-1, 0, -0.07f}, .b = {1, 0, -0.07f}, .step_a = {}, .step_b = {}, .radius = 0.08f},
+      {.a = {-1, 0, 0.07f}, .b = {1, 0, 0.07f}, .step_a = {}, .step_b = {}, .radius = 0.08f}};
+  for (const float z : {-0.012f, 0.0f, 0.004f}) {
+    ContactCloth cloth({{0, 0, z}, {0.2f, 0.2f, z}, {0.2f, -0.2f, z}}, {{0, 1, 2}});
+    Stats stats;
+    for (int substep = 0; substep < 10; ++substep) {
+      for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, cloth.x(i), cloth.x(i));
+      detection(cloth, capsules).run(stats);
+      respond(cloth, 3);
+    }
+    EXPECT_NEAR(cloth.x(0).z, 0.0f, 1e-5f) << z;
+    const Vec3 edge = (cloth.x(1) + cloth.x(2)) * 0.5f;  // passes between them too
+    EXPECT_NEAR(edge.z, 0.0f, 1e-4f) << z;
+    const Vec3 rest = cloth.x(0);
+    detection(cloth, capsules).run(stats);
+    respond(cloth, 1);
+    EXPECT_LT(length(cloth.x(0) - rest), 1e-6f) << z;  // the one does not undo what the other does
+  }
+}
+
+TEST(CapsuleDetection, ACreaseBetweenCapsulesIsNoPinch) {
+  const std::vector<CapsulePose> capsules = {
+      {.a = {-1, -0.07f, 0}, .b = {1, -0.07f, 0}, .step_a = {}, .step_b = {}, .radius = 0.08f},
+      {.a = {-1, 0, -0.07f}, .b = {1, 0, -0.07f}, .step_a = {}, .step_b = {}, .radius = 0.08f}};
+  ContactCloth cloth({{0, 0.01f, 0.01f}, {0.5f, 0.3f, 0.3f}, {0.5f, 0.3f, 0.2f}}, {{0, 1, 2}});
+  Stats stats;
+  for (int substep = 0; substep < 40; ++substep) {
+    for (std::uint32_t i = 0; i < 3; ++i) cloth.put(i, cloth.x(i), cloth.x(i));
+    detection(cloth, capsules).run(stats);
+    respond(cloth, 3);
+  }
+  for (const CapsulePose& capsule : capsules) EXPECT_LT(depth(cloth.x(0), capsule), -kThickness + 1e-5f);
+}
+
 TEST(CapsuleDetection, DegenerateFeaturesMakeFiniteRows) {
   const std::vector<Vec3> same = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, line = {{0, -1, 0}, {0, 0, 0}, {0, 1, 0}};
   for (const std::vector<Vec3>& x : {same, line}) {

@@ -124,7 +124,7 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
   motion.run(stats);
   EXPECT_EQ(count, 1u);
   EXPECT_EQ(stats.contacts_dropped, all - 1);
-  motion.t1 = motion.t0;
+  motion.t0 = 1.0f, motion.t1 = 0.5f;
   EXPECT_FALSE(motion.validate());
 }
 
