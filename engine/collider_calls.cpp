@@ -72,23 +72,25 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     need_range("shape", def.shape, 0, PLEAT_COLLIDER_MESH);
     need_range("friction", def.friction, 0, 10);
 #ifdef PLEAT_WITH_COLLISION
-    Handle added;
-    if (def.shape == PLEAT_COLLIDER_CAPSULE) {
-      need_inside("a", def.a);
-      need_inside("b", def.b);
-      need_range("radius", def.radius, 0, 1e4);
-      added = add_capsule(world, as_vec3(def.a), as_vec3(def.b), def.radius, def.friction);
-    } else {
-      added = add_mesh(world, read_mesh(world, def));
-    }
+    const std::size_t before = world.colliders.size();
     try {
+      Handle added;
+      if (def.shape == PLEAT_COLLIDER_CAPSULE) {
+        need_inside("a", def.a);
+        need_inside("b", def.b);
+        need_range("radius", def.radius, 0, 1e4);
+        added = add_capsule(world, as_vec3(def.a), as_vec3(def.b), def.radius, def.friction);
+      } else {
+        added = add_mesh(world, read_mesh(world, def));
+      }
       replan(world);
+      *collider = {added.index, added.generation};
     } catch (...) {
-      remove_collider(world, static_cast<std::uint32_t>(world.colliders.size() - 1));
-      replan(world);
+      if (world.colliders.size() != before) remove_collider(world, static_cast<std::uint32_t>(before));
+      drop_idle_bodies(world);
+      replan(world);  // to what it was: there is room for it
       throw;
     }
-    *collider = {added.index, added.generation};
 #endif
   });
 }

@@ -213,7 +213,13 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
     if (!found.fault.empty()) refuse("the mesh cannot be cloth: " + found.fault, PLEAT_ERROR_MESH);
     log_repairs(world, found);
     const GarmentInput input{positions, triangles, uvs, {def.pins, def.pin_count}, seams};
-    const Handle added = add_garment(world, build_garment(input, &world.memory));
+    Garment built = build_garment(input, &world.memory);
+    if (!seams.empty() &&
+        std::find(built.edge_is_seam.begin(), built.edge_is_seam.end(), 1) == built.edge_is_seam.end()) {
+      world.log(PLEAT_LOG_WARNING,
+                "garment_create: none of the " + std::to_string(seams.size()) + " seams is an edge of the mesh");
+    }
+    const Handle added = add_garment(world, std::move(built));
     *garment = {added.index, added.generation};
   });
 }

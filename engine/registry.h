@@ -8,6 +8,12 @@
 
 namespace pleat {
 
+/// Makes room for one more element, so that the next push_back cannot fail. Throws std::bad_alloc; unchanged then.
+template <class Vector>
+void reserve_one_more(Vector& vector) {
+  if (vector.size() == vector.capacity()) vector.reserve(2 * vector.size() + 8);
+}
+
 struct Handle {
   std::uint32_t index = 0, generation = 0;
 };
@@ -20,11 +26,11 @@ class Registry {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(dense_.size()); }
 
-  /// Makes room for one more, so that the next add cannot fail. Throws std::bad_alloc.
+  /// Makes room, so that the next add cannot fail. Throws std::bad_alloc.
   void reserve_one() {
-    slots_.reserve(slots_.size() + 1);
-    dense_.reserve(dense_.size() + 1);
-    free_.reserve(slots_.size() + 1);
+    reserve_one_more(slots_);
+    reserve_one_more(dense_);
+    if (free_.capacity() < slots_.capacity()) free_.reserve(slots_.capacity());  // remove must not fail either
   }
 
   /// A handle for a new last element.

@@ -1,5 +1,7 @@
 #include "engine/schedule_table.h"
 
+#include <cassert>
+
 #include "systems/air_damping.h"
 #include "systems/air_drag.h"
 #include "systems/edge_damping.h"
@@ -36,6 +38,12 @@ namespace {
 
 using Settings = pleat_cloth_settings;
 
+template <class System, class... Counters>
+void run(const System& system, Counters&... counters) {
+  assert(system.validate());
+  system.run(counters...);
+}
+
 constexpr const char* kNeeded = nullptr;
 const char* always(const World&, const ClothRecord&) { return kNeeded; }
 
@@ -56,11 +64,11 @@ ContactList contacts_of(ClothTick& t) {
 }
 
 void respond(ClothTick& t) {
-  CollisionResponse{.contacts = contacts_of(t),
-                    .inverse_mass = t.inverse_mass,
-                    .face_response = static_cast<FaceResponse>(t.settings.face_response),
-                    .position = t.position}
-      .run(t.world.stats);
+  run(CollisionResponse{.contacts = contacts_of(t),
+                        .inverse_mass = t.inverse_mass,
+                        .face_response = static_cast<FaceResponse>(t.settings.face_response),
+                        .position = t.position},
+      t.world.stats);
 }
 #endif
 
@@ -81,27 +89,25 @@ constexpr Row kRows[] = {
     {Phase::kSubstepBegin, "pin_motion",
      [](const World&, const ClothRecord& c) { return c.garment().pins.size() != 0 ? kNeeded : "no pins"; },
      [](ClothTick& t) {
-       PinMotion{.garment = &t.garment,
-                 .pin_previous = t.pin_previous,
-                 .pin_next = t.pin_next,
-                 .t0 = t.t0,
-                 .t1 = t.t1,
-                 .dt = t.dt,
-                 .position = t.position,
-                 .velocity = t.velocity}
-           .run();
+       run(PinMotion{.garment = &t.garment,
+                     .pin_previous = t.pin_previous,
+                     .pin_next = t.pin_next,
+                     .t0 = t.t0,
+                     .t1 = t.t1,
+                     .dt = t.dt,
+                     .position = t.position,
+                     .velocity = t.velocity});
      }},
 
     {Phase::kStage, "elastic_force",
      [](const World&, const ClothRecord& c) { return c.settings.stiffness > 0.0f ? kNeeded : "stiffness is 0"; },
      [](ClothTick& t) {
-       ElasticForce{.garment = &t.garment,
-                    .position = t.position,
-                    .inverse_mass = t.inverse_mass,
-                    .stiffness = t.settings.stiffness,
-                    .dt = t.dt,
-                    .force = t.force}
-           .run();
+       run(ElasticForce{.garment = &t.garment,
+                        .position = t.position,
+                        .inverse_mass = t.inverse_mass,
+                        .stiffness = t.settings.stiffness,
+                        .dt = t.dt,
+                        .force = t.force});
      }},
     {Phase::kStage, "hinge_bending",
      [](const World&, const ClothRecord& c) {
@@ -110,27 +116,25 @@ constexpr Row kRows[] = {
                                                                                      : kNeeded;
      },
      [](ClothTick& t) {
-       HingeBending{.garment = &t.garment,
-                    .position = t.position,
-                    .velocity = t.velocity,
-                    .inverse_mass = t.inverse_mass,
-                    .stiffness = t.settings.bend_stiffness,
-                    .damping_rate = t.settings.bend_damping,
-                    .dt = t.dt,
-                    .force = t.force}
-           .run();
+       run(HingeBending{.garment = &t.garment,
+                        .position = t.position,
+                        .velocity = t.velocity,
+                        .inverse_mass = t.inverse_mass,
+                        .stiffness = t.settings.bend_stiffness,
+                        .damping_rate = t.settings.bend_damping,
+                        .dt = t.dt,
+                        .force = t.force});
      }},
     {Phase::kStage, "edge_damping",
      [](const World&, const ClothRecord& c) { return c.settings.edge_damping > 0.0f ? kNeeded : "edge_damping is 0"; },
      [](ClothTick& t) {
-       EdgeDamping{.garment = &t.garment,
-                   .position = t.position,
-                   .velocity = t.velocity,
-                   .inverse_mass = t.inverse_mass,
-                   .rate = t.settings.edge_damping,
-                   .dt = t.dt,
-                   .force = t.force}
-           .run();
+       run(EdgeDamping{.garment = &t.garment,
+                       .position = t.position,
+                       .velocity = t.velocity,
+                       .inverse_mass = t.inverse_mass,
+                       .rate = t.settings.edge_damping,
+                       .dt = t.dt,
+                       .force = t.force});
      }},
     {Phase::kStage, "gravity",
      [](const World& w, const ClothRecord&) {
@@ -139,22 +143,20 @@ constexpr Row kRows[] = {
      },
      [](ClothTick& t) {
        const float* g = t.world.def.gravity;
-       Gravity{.particle_count = t.garment.particle_count,
-               .mass = t.mass,
-               .acceleration = {g[0], g[1], g[2]},
-               .force = t.force}
-           .run();
+       run(Gravity{.particle_count = t.garment.particle_count,
+                   .mass = t.mass,
+                   .acceleration = {g[0], g[1], g[2]},
+                   .force = t.force});
      }},
     {Phase::kStage, "air_damping",
      [](const World&, const ClothRecord& c) { return c.settings.air_damping > 0.0f ? kNeeded : "air_damping is 0"; },
      [](ClothTick& t) {
-       AirDamping{.particle_count = t.garment.particle_count,
-                  .mass = t.mass,
-                  .velocity = t.velocity,
-                  .rate = t.settings.air_damping,
-                  .dt = t.dt,
-                  .force = t.force}
-           .run();
+       run(AirDamping{.particle_count = t.garment.particle_count,
+                      .mass = t.mass,
+                      .velocity = t.velocity,
+                      .rate = t.settings.air_damping,
+                      .dt = t.dt,
+                      .force = t.force});
      }},
     {Phase::kStage, "air_drag",
      [](const World& w, const ClothRecord& c) {
@@ -164,107 +166,104 @@ constexpr Row kRows[] = {
      },
      [](ClothTick& t) {
        const float* wind = t.world.def.wind;
-       AirDrag{.garment = &t.garment,
-               .position = t.position,
-               .velocity = t.velocity,
-               .wind = {wind[0], wind[1], wind[2]},
-               .air_density = t.world.def.air_density,
-               .drag_coefficient = t.settings.drag_coefficient,
-               .density = t.settings.density,
-               .dt = t.dt,
-               .force = t.force}
-           .run();
+       run(AirDrag{.garment = &t.garment,
+                   .position = t.position,
+                   .velocity = t.velocity,
+                   .wind = {wind[0], wind[1], wind[2]},
+                   .air_density = t.world.def.air_density,
+                   .drag_coefficient = t.settings.drag_coefficient,
+                   .density = t.settings.density,
+                   .dt = t.dt,
+                   .force = t.force});
      }},
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kStage, "contact_acceleration", with_colliders,
      [](ClothTick& t) {
-       ContactAcceleration{.contacts = contacts_of(t),
-                           .position = t.position,
-                           .velocity = t.velocity,
-                           .inverse_mass = t.inverse_mass,
-                           .dt = t.dt,
-                           .force = t.force}
-           .run();
+       run(ContactAcceleration{.contacts = contacts_of(t),
+                               .position = t.position,
+                               .velocity = t.velocity,
+                               .inverse_mass = t.inverse_mass,
+                               .dt = t.dt,
+                               .force = t.force});
      }},
 #endif
     {Phase::kStage, "euler_integration",
      [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? "integrates by Runge-Kutta" : kNeeded; },
      [](ClothTick& t) {
-       EulerIntegration{.particle_count = t.garment.particle_count,
-                        .inverse_mass = t.inverse_mass,
-                        .force = t.force,
-                        .dt = t.dt,
-                        .symplectic = t.settings.integrator == PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
-                        .position = t.position,
-                        .velocity = t.velocity}
-           .run();
+       run(EulerIntegration{.particle_count = t.garment.particle_count,
+                            .inverse_mass = t.inverse_mass,
+                            .force = t.force,
+                            .dt = t.dt,
+                            .symplectic = t.settings.integrator == PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
+                            .position = t.position,
+                            .velocity = t.velocity});
      }},
     {Phase::kStage, "runge_kutta_integration",
      [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? kNeeded : "integrates by Euler"; },
      [](ClothTick& t) {
        RungeKuttaColumns& slopes = t.world.runge_kutta;
-       RungeKuttaIntegration{.particle_count = t.garment.particle_count,
-                             .inverse_mass = t.inverse_mass,
-                             .force = t.force,
-                             .start_position = t.previous,
-                             .dt = t.dt,
-                             .stage = t.stage,
-                             .position = t.position,
-                             .velocity = t.velocity,
-                             .start_velocity = slopes.start_velocity.view().from(t.cloth.particle_begin),
-                             .position_slope = slopes.position_slope.view().from(t.cloth.particle_begin),
-                             .velocity_slope = slopes.velocity_slope.view().from(t.cloth.particle_begin)}
-           .run();
+       run(RungeKuttaIntegration{.particle_count = t.garment.particle_count,
+                                 .inverse_mass = t.inverse_mass,
+                                 .force = t.force,
+                                 .start_position = t.previous,
+                                 .dt = t.dt,
+                                 .stage = t.stage,
+                                 .position = t.position,
+                                 .velocity = t.velocity,
+                                 .start_velocity = slopes.start_velocity.view().from(t.cloth.particle_begin),
+                                 .position_slope = slopes.position_slope.view().from(t.cloth.particle_begin),
+                                 .velocity_slope = slopes.velocity_slope.view().from(t.cloth.particle_begin)});
      }},
 
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
-       ColliderMotion{.capsules = &w.capsules,
-                      .bodies = w.bodies.get(),
-                      .particle_count = t.garment.particle_count,
-                      .position = t.position,
-                      .reach = t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count),
-                      .t0 = t.t0,
-                      .t1 = t.t1,
-                      .poses = w.capsule_poses.data(),
-                      .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
-                      .pose_count = &w.capsule_pose_count}
-           .run(w.stats);
+       run(ColliderMotion{.capsules = &w.capsules,
+                          .bodies = w.bodies.get(),
+                          .particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .reach =
+                              t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count),
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .poses = w.capsule_poses.data(),
+                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                          .pose_count = &w.capsule_pose_count},
+           w.stats);
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
-       CapsuleDetection{.garment = &t.garment,
-                        .position = t.position,
-                        .previous = t.previous,
-                        .inverse_mass = t.inverse_mass,
-                        .capsules = w.capsule_poses.data(),
-                        .capsule_count = w.capsule_pose_count,
-                        .thickness = t.settings.thickness,
-                        .friction = t.settings.friction,
-                        .dt = t.dt,
-                        .scratch = w.detection_scratch.data(),
-                        .contacts = contacts_of(t)}
-           .run(w.stats);
+       run(CapsuleDetection{.garment = &t.garment,
+                            .position = t.position,
+                            .previous = t.previous,
+                            .inverse_mass = t.inverse_mass,
+                            .capsules = w.capsule_poses.data(),
+                            .capsule_count = w.capsule_pose_count,
+                            .thickness = t.settings.thickness,
+                            .friction = t.settings.friction,
+                            .dt = t.dt,
+                            .scratch = w.detection_scratch.data(),
+                            .contacts = contacts_of(t)},
+           w.stats);
      }},
     {Phase::kContact, "mesh_detection", with_meshes,
      [](ClothTick& t) {
        World& w = t.world;
-       MeshDetection{.garment = &t.garment,
-                     .position = t.position,
-                     .previous = t.previous,
-                     .inverse_mass = t.inverse_mass,
-                     .bodies = w.bodies.get(),
-                     .meshes = w.mesh_pointers.data(),
-                     .t0 = t.t0,
-                     .t1 = t.t1,
-                     .thickness = t.settings.thickness,
-                     .friction = t.settings.friction,
-                     .dt = t.dt,
-                     .contacts = contacts_of(t)}
-           .run(w.stats);
+       run(MeshDetection{.garment = &t.garment,
+                         .position = t.position,
+                         .previous = t.previous,
+                         .inverse_mass = t.inverse_mass,
+                         .bodies = w.bodies.get(),
+                         .meshes = w.mesh_pointers.data(),
+                         .t0 = t.t0,
+                         .t1 = t.t1,
+                         .thickness = t.settings.thickness,
+                         .friction = t.settings.friction,
+                         .dt = t.dt,
+                         .contacts = contacts_of(t)},
+           w.stats);
      }},
 #endif
 
@@ -273,124 +272,120 @@ constexpr Row kRows[] = {
        return c.settings.stretch_limit < 1.0f ? kNeeded : "stretch_limit is 1 or more";
      },
      [](ClothTick& t) {
-       StretchConstraint{.garment = &t.garment,
-                         .inverse_mass = t.inverse_mass,
-                         .limit = t.settings.stretch_limit,
-                         .position = t.position}
-           .run(t.world.stats);
+       run(StretchConstraint{.garment = &t.garment,
+                             .inverse_mass = t.inverse_mass,
+                             .limit = t.settings.stretch_limit,
+                             .position = t.position},
+           t.world.stats);
      }},
 
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kSweep, "collision_response", with_colliders, respond},
     {Phase::kSubstepEnd, "contact_friction", with_colliders,
      [](ClothTick& t) {
-       ContactFriction{
-           .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position}
-           .run();
+       run(ContactFriction{
+           .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position});
      }},
     {Phase::kSubstepEnd, "collision_last_word", with_colliders, respond},
 #endif
 
     {Phase::kSubstepEnd, "velocity_update", always,
      [](ClothTick& t) {
-       VelocityUpdate{.particle_count = t.garment.particle_count,
-                      .position = t.position,
-                      .predicted = t.predicted,
-                      .inverse_mass = t.inverse_mass,
-                      .dt = t.dt,
-                      .velocity = t.velocity}
-           .run();
+       run(VelocityUpdate{.particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .predicted = t.predicted,
+                          .inverse_mass = t.inverse_mass,
+                          .dt = t.dt,
+                          .velocity = t.velocity});
      }},
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kSubstepEnd, "contact_velocity", with_colliders,
      [](ClothTick& t) {
-       ContactVelocity{.contacts = contacts_of(t), .inverse_mass = t.inverse_mass, .dt = t.dt, .velocity = t.velocity}
-           .run();
+       run(ContactVelocity{
+           .contacts = contacts_of(t), .inverse_mass = t.inverse_mass, .dt = t.dt, .velocity = t.velocity});
      }},
 #endif
     {Phase::kSubstepEnd, "finite_guard", always,
      [](ClothTick& t) {
-       FiniteGuard{.particle_count = t.garment.particle_count,
-                   .previous = t.previous,
-                   .position = t.position,
-                   .velocity = t.velocity}
-           .run(t.world.stats);
+       run(FiniteGuard{.particle_count = t.garment.particle_count,
+                       .previous = t.previous,
+                       .position = t.position,
+                       .velocity = t.velocity},
+           t.world.stats);
      }},
 
 #ifdef PLEAT_WITH_SMOOTHING
     {Phase::kFrameEnd, "particle_normals", with_normals,
      [](ClothTick& t) {
-       ParticleNormals{
-           .mode = surface_mode(t.settings), .garment = &t.garment, .position = t.position, .normal = t.normal}
-           .run();
+       run(ParticleNormals{.mode = surface_mode(t.settings),
+                           .garment = &t.garment,
+                           .position = t.position,
+                           .normal = t.normal,
+                           .fold = t.fold});
      }},
     {Phase::kFrameEnd, "edge_length", with_folds,
      [](ClothTick& t) {
-       EdgeLength{.mode = surface_mode(t.settings),
-                  .garment = &t.garment,
-                  .position = t.position,
-                  .normal = t.normal,
-                  .fold = t.fold,
-                  .fold_height = t.fold_height}
-           .run();
+       run(EdgeLength{.mode = surface_mode(t.settings),
+                      .garment = &t.garment,
+                      .position = t.position,
+                      .normal = t.normal,
+                      .fold = t.fold,
+                      .fold_height = t.fold_height});
      }},
     {Phase::kFrameEnd, "tessellation", always,
      [](ClothTick& t) {
-       Tessellation{.mode = surface_mode(t.settings),
-                    .garment = &t.garment,
-                    .pattern = t.cloth.pattern(),
-                    .position = t.position,
-                    .normal = t.normal,
-                    .fold = t.fold,
-                    .fold_height = t.fold_height,
-                    .drawn_position = t.drawn_position}
-           .run();
+       run(Tessellation{.mode = surface_mode(t.settings),
+                        .garment = &t.garment,
+                        .pattern = t.cloth.pattern(),
+                        .position = t.position,
+                        .normal = t.normal,
+                        .fold = t.fold,
+                        .fold_height = t.fold_height,
+                        .drawn_position = t.drawn_position});
      }},
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kFrameEnd, "surface_footprint", with_capsules,
      [](ClothTick& t) {
-       Tessellation{.mode = SurfaceMode::kFlat,
-                    .garment = &t.garment,
-                    .pattern = t.cloth.pattern(),
-                    .position = t.position,
-                    .normal = {},
-                    .fold = {},
-                    .drawn_position = t.world.footprint.view()}
-           .run();
+       run(Tessellation{.mode = SurfaceMode::kFlat,
+                        .garment = &t.garment,
+                        .pattern = t.cloth.pattern(),
+                        .position = t.position,
+                        .normal = {},
+                        .fold = {},
+                        .drawn_position = t.world.footprint.view()});
      }},
     {Phase::kFrameEnd, "surface_capsules", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
-       ColliderMotion{.capsules = &w.capsules,
-                      .bodies = w.bodies.get(),
-                      .particle_count = t.garment.particle_count,
-                      .position = t.position,
-                      .reach = t.garment.mean_edge_length,  // the surface bulges less than that
-                      .t0 = t.t0,
-                      .t1 = t.t1,
-                      .poses = w.capsule_poses.data(),
-                      .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
-                      .pose_count = &w.capsule_pose_count}
-           .run(w.stats);
+       run(ColliderMotion{.capsules = &w.capsules,
+                          .bodies = w.bodies.get(),
+                          .particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .reach = t.garment.mean_edge_length,  // the surface bulges less than that
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .poses = w.capsule_poses.data(),
+                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                          .pose_count = &w.capsule_pose_count},
+           w.stats);
      }},
     {Phase::kFrameEnd, "surface_clearance", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
-       SurfaceClearance{.garment = &t.garment,
-                        .pattern = t.cloth.pattern(),
-                        .footprint = w.footprint.view(),
-                        .capsules = w.capsule_poses.data(),
-                        .capsule_count = w.capsule_pose_count,
-                        .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
-                        .planes = w.clearance_planes.data(),
-                        .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),
-                        .drawn_position = t.drawn_position}
-           .run();
+       run(SurfaceClearance{.garment = &t.garment,
+                            .pattern = t.cloth.pattern(),
+                            .footprint = w.footprint.view(),
+                            .capsules = w.capsule_poses.data(),
+                            .capsule_count = w.capsule_pose_count,
+                            .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
+                            .planes = w.clearance_planes.data(),
+                            .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),
+                            .drawn_position = t.drawn_position});
      }},
 #endif
     {Phase::kFrameEnd, "drawn_normals", always,
      [](ClothTick& t) {
-       DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal}.run();
+       run(DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal});
      }},
 #endif
 };

@@ -70,7 +70,7 @@ void close_drawn_gap(World& world, const ClothRecord& cloth) {
 /// Everything that adding a collider needs besides its own data.
 void want_bodies(World& world) {
   world.collider_handles.reserve_one();
-  world.colliders.reserve(world.colliders.size() + 1);
+  reserve_one_more(world.colliders);
   if (world.bodies != nullptr) return;
   std::pmr::polymorphic_allocator<> allocator(&world.memory);
   world.bodies = {allocator.new_object<CollisionBodies>(&world.memory), MemoryDelete{&world.memory}};
@@ -151,7 +151,7 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
 
   // Everything that can fail comes first; resizing a column keeps what is in it, so a failure leaves only spare room.
   world.cloth_handles.reserve_one();
-  world.clothes.reserve(world.clothes.size() + 1);
+  reserve_one_more(world.clothes);
   want_pattern(world, source, settings.level);
   const std::size_t particle_end = cloth.particle_begin + range_of(g.particle_count);
   const std::size_t pin_end = cloth.pin_begin + range_of(g.pins.size());
@@ -292,6 +292,10 @@ void remove_collider(World& world, std::uint32_t position) {
     if (other.shape == gone.shape && other.position > gone.position) --other.position;
   }
   world.collider_handles.remove(position);
+  drop_idle_bodies(world);
+}
+
+void drop_idle_bodies(World& world) {
   if (world.colliders.empty()) world.bodies.reset();
 }
 #endif

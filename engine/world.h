@@ -103,7 +103,7 @@ struct World {
   std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
 
-  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty while there is no collider.
+  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until there is a collider.
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
   Column<float> detection_scratch;
@@ -135,5 +135,7 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth);
 Handle add_capsule(World& world, const Vec3& a, const Vec3& b, float radius, float friction);
 Handle add_mesh(World& world, MeshCollider&& mesh);
 void remove_collider(World& world, std::uint32_t position);
+/// Bullet's objects go when no collider is left.
+void drop_idle_bodies(World& world);
 
 }  // namespace pleat

@@ -9,7 +9,7 @@ namespace pleat {
 namespace {
 
 constexpr float kOnset = 0.01f;     // deficit, over the length, at which half of it is closed
-constexpr float kSureSide = 0.08f;  // dL/dh at h = 0 from which on the side of the fold is certain: 2 % of bulge
+constexpr float kSureSide = 0.15f;  // dL/dh at h = 0 from which on the side of the fold is certain: 4 % of bulge
 constexpr float kTiny = 1e-20f;
 
 constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums

@@ -12,7 +12,7 @@ namespace pleat {
 ///   n       across the curve's tangent in its middle, in the plane of the two normals' sum
 ///   target  the length of the curve at rest, missed by up to 1 % of it so that h starts smoothly: a deficit of e is
 ///           closed by e^2 / (e + 1 %)
-///   h       on the side to which the curve bulges already, fading to 0 within 2 % of bulge where that side is open.
+///   h       on the side to which the curve bulges already, fading to 0 within 4 % of bulge where that side is open.
 ///           L(h) of the folded curve (components/pn_edge.h) is convex; one Newton step from the closed form for a
 ///           straight edge meets the target to 0.5 % down to 0.3 of the length
 /// kPaper

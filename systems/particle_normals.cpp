@@ -3,12 +3,18 @@
 #include <algorithm>
 
 #include "components/base_normal.h"
+#include "components/pn_edge.h"
 #include "components/vec3_block.h"
 
 namespace pleat {
 namespace {
 
-constexpr float kForceFloor = 0.05f;    // f0 over k times the mean edge length
+constexpr float kForceFloor = 0.05f;  // f0 over k times the mean edge length
+constexpr int kRounds = 2;            // of looking at the folds
+constexpr float kReach = 2.5f;        // of a fold on the tangents at its ends: 2 for a parabola
+constexpr float kSureSide = 0.25f;    // dL/dh at h = 0 at which 70 % of a fold is believed
+constexpr float kOnset = 0.01f;       // as edge length control has it
+constexpr float kTiny = 1e-20f;
 constexpr float kBaseFallback = 1e-9f;  // the base normal's share in kPaper, below any force but zero
 
 /// The share of a face at its three corners: the sum at each takes it times the cross product of two sides.
@@ -37,26 +43,35 @@ inline std::array<float, 3> face_shares(const Vec3& a, const Vec3& b, const Vec3
   return share;
 }
 
-template <SurfaceMode mode>
+/// N_i. Where `folded` the sides of a face leave its corners as s.fold says, else straight.
+template <SurfaceMode mode, bool folded>
 void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
   clear(s.normal, g.particle_count);
   for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    Vec3Block x[3], sum[3];
+    Vec3Block x[3], bend[3], sum[3];
     float rest_length[3][kLanes];
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t f = begin + std::min(lane, count - 1);
       for (std::size_t k = 0; k < 3; ++k) {
         x[k].set(lane, s.position[g.face_particle[k][f]]);
         rest_length[k][lane] = g.edge_rest_length[g.face_edge[k][f]];
+        if constexpr (folded) bend[k].set(lane, s.fold[g.face_edge[k][f]]);
       }
     }
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const Vec3 a = x[0][lane], b = x[1][lane], c = x[2][lane], face = cross(b - a, c - a);
       const std::array<float, 3> share = face_shares<mode>(
           a, b, c, face, {rest_length[0][lane], rest_length[1][lane], rest_length[2][lane]}, g.mean_edge_length);
-      for (std::size_t k = 0; k < 3; ++k) sum[k].set(lane, face * share[k]);
+      if constexpr (folded) {
+        const Vec3 ab = bend[0][lane], bc = bend[1][lane], ca = bend[2][lane];
+        sum[0].set(lane, cross(b - a + ab, c - a + ca) * share[0]);
+        sum[1].set(lane, cross(c - b + bc, a - b + ab) * share[1]);
+        sum[2].set(lane, cross(a - c + ca, b - c + bc) * share[2]);
+      } else {
+        for (std::size_t k = 0; k < 3; ++k) sum[k].set(lane, face * share[k]);
+      }
     }
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       for (std::size_t k = 0; k < 3; ++k) s.normal.add(g.face_particle[k][begin + lane], sum[k][lane]);
@@ -65,20 +80,78 @@ void sum_normals(const ParticleNormals& s) {
   normalize(s.normal, g.particle_count);
 }
 
+/// How much the fold that a short edge will need turns the tangents at its ends: they go along the chord plus or minus
+/// the returned vector, m. The fold's height is that of a straight edge in closed form (see edge_length.cpp), on the
+/// side to which the normals say the edge bulges; the curve's length is the root of its mean squared speed.
+inline Vec3 bend_of_fold(const PnEdge& c, const Vec3& normals, float target) {
+  const float dd = dot(c.d, c.d);
+  const float length0 =
+      std::sqrt(dd + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
+  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
+  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
+  const float wanted = length0 + closed, gap = closed * (length0 + wanted);
+
+  const Vec3 across = normals - c.d * (dot(normals, c.d) / (dd + kTiny));
+  const float width2 = dot(across, across);
+  const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
+  const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny);  // dL/dh at h = 0
+  const float beta = length0 * (slope < 0.0f ? -slope : slope);
+  const float ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
+  const float height = gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny);
+
+  const float believed = slope / std::sqrt(slope * slope + kSureSide * kSureSide);
+  const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
+  return n * (2.0f * kReach * height * believed * defined);
+}
+
+/// Adds to s.fold what the edges' folds do to the tangents. Says whether there are any.
+bool add_folds(const ParticleNormals& s) {
+  const Garment& g = *s.garment;
+  bool any = false;
+  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
+    Vec3Block a, b, na, nb, bend;
+    float target[kLanes];
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t e = begin + std::min(lane, count - 1);
+      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
+      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
+      target[lane] = g.edge_rest_curve_length[e];
+    }
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const PnEdge curve(a[lane], b[lane], na[lane], nb[lane]);
+      bend.set(lane, bend_of_fold(curve, na[lane] + nb[lane], target[lane]));
+    }
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      s.fold.add(begin + lane, bend[lane]);
+      any |= bend[lane] != Vec3{};
+    }
+  }
+  return any;
+}
+
+void run_pleat(const ParticleNormals& s) {
+  sum_normals<SurfaceMode::kPleat, false>(s);
+  clear(s.fold, s.garment->edge_count);
+  for (int round = 0; round < kRounds && add_folds(s); ++round) sum_normals<SurfaceMode::kPleat, true>(s);
+}
+
 }  // namespace
 
 bool ParticleNormals::validate() const {
-  return mode <= SurfaceMode::kArcPn && garment != nullptr && position.x != nullptr && normal.x != nullptr;
+  return mode <= SurfaceMode::kArcPn && garment != nullptr && position.x != nullptr && normal.x != nullptr &&
+         (mode != SurfaceMode::kPleat || fold.x != nullptr);
 }
 
 void ParticleNormals::run() const {
   switch (mode) {
     case SurfaceMode::kPaper:
-      return sum_normals<SurfaceMode::kPaper>(*this);
+      return sum_normals<SurfaceMode::kPaper, false>(*this);
     case SurfaceMode::kPleat:
-      return sum_normals<SurfaceMode::kPleat>(*this);
+      return run_pleat(*this);
     default:
-      return sum_normals<SurfaceMode::kPn>(*this);
+      return sum_normals<SurfaceMode::kPn, false>(*this);
   }
 }
 

@@ -68,7 +68,7 @@ struct Surface {
     move([&](const Vec3& x) { return x + Vec3{d(random), d(random), d(random)}; });
   }
 
-  ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view()}; }
+  ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view(), fold.view()}; }
   EdgeLength edge_length() { return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data()}; }
   Tessellation tessellation() {
     return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
