@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "demo/input_error.h"
 #include "demo/program/output.h"
@@ -100,45 +101,28 @@ FineSolution relaxed(const pleat_api& api, const FineSquare& square, uint32_t n,
   def.pins = {0, n - 1};
   def.settings = fine_settings(api);
   demo::Scene scene(api, def);
-  const pleat_cloth cloth = scene.cloths()[0];
-  scene.check(api.cloth_write_particles(scene.world(), cloth, start.data(), nullptr, n * n), "start");
-  for (uint32_t i = 0; i < kSolveSteps / std::size(kSides); ++i) {
+  scene.check(api.cloth_write_particles(scene.world(), scene.cloths()[0], start.data(), nullptr, n * n), "start");
+  constexpr uint32_t kSteps = kSolveSteps / std::size(kSides);
+  const uint32_t half_second = uint32_t(0.5 * def.rate);
+  std::vector<float> before, after;
+  for (uint32_t i = 0; i < kSteps; ++i) {
+    if (i == kSteps - half_second) scene.read_particles(0, before);
     scene.advance();
     step();
   }
-  FineSolution solution{std::vector<float>(start.size()), 0.0};
-  std::vector<float> v(start.size());
-  scene.check(api.cloth_read_particles(scene.world(), cloth, solution.positions.data(), v.data(), n * n), "end");
-  for (size_t i = 0; i < v.size(); i += 3) {
-    solution.speed = std::max(solution.speed, double(std::hypot(v[i], v[i + 1], v[i + 2])));
+  scene.read_particles(0, after);
+  double motion = 0.0;
+  for (size_t i = 0; i < after.size(); i += 3) {
+    motion = std::max(
+        motion, double(std::hypot(after[i] - before[i], after[i + 1] - before[i + 1], after[i + 2] - before[i + 2])));
   }
-  return solution;
-}
-
-}  // namespace
-
-demo::TriangleMesh flat_square(const pleat_api& api, uint32_t n) {
-  pleat_shape_def def;
-  api.shape_def_init(&def, sizeof def);
-  def.rows = def.columns = n;
-  def.alternate = 1;
-  uint32_t vertices = 0, triangles = 0;
-  api.shape_size(&def, &vertices, &triangles);
-  demo::TriangleMesh mesh;
-  mesh.positions.resize(3 * vertices);
-  mesh.triangles.resize(3 * triangles);
-  if (api.shape_build(&def, mesh.positions.data(), mesh.triangles.data()) != PLEAT_OK) {
-    throw std::runtime_error("the library cannot build a square of cloth");
-  }
-  return mesh;
+  return {std::move(after), motion};
 }
 
 FineSolution solve(const pleat_api& api, const FineSquare& square, const std::function<void()>& step) {
-  FineSolution solution;
-  solution.positions = first_state(square, kSides[0]);
-  for (const uint32_t n : kSides) {
-    if (n != kSides[0]) solution.positions = refined(solution.positions, (n + 1) / 2);
-    solution = relaxed(api, square, n, solution.positions, step);
+  FineSolution solution = relaxed(api, square, kSides[0], first_state(square, kSides[0]), step);
+  for (size_t level = 1; level < std::size(kSides); ++level) {
+    solution = relaxed(api, square, kSides[level], refined(solution.positions, kSides[level - 1]), step);
   }
   return solution;
 }

@@ -25,7 +25,7 @@ demo::TriangleMesh flat_square(const pleat_api& api, uint32_t n);
 
 struct FineSolution {
   std::vector<float> positions;  ///< (kFineSide^2, 3) m, in the order of flat_square
-  double speed;                  ///< m/s, of the fastest particle: how far from rest it still is
+  double motion;                 ///< m, the farthest that a particle went in the last half second
 };
 
 /// The square at rest: springs of 300 N/m, bending of 2e-5 N m, .2 kg/m^2, no strain limit, damped until it hardly

@@ -33,7 +33,7 @@ void regenerate(const pleat_api& api, const std::filesystem::path& folder) {
       solution = solve(api, square, [&] { progress.step(); });
     }
     write_fine(folder, square, solution.positions);
-    std::printf("%-12s fastest particle %.2g mm/s\n", square.name, 1e3 * solution.speed);
+    std::printf("%-12s moved by at most %.2g mm in the last half second\n", square.name, 1e3 * solution.motion);
   }
 }
 
