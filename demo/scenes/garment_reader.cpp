@@ -97,8 +97,8 @@ std::vector<uint32_t> read_ring_sizes(const JsonValue& skirt) {
 /// A skirt with the proportions of workload W1, cut for a body: from the waist, clear of it, to the knees.
 Rings cut_skirt(std::vector<uint32_t> sizes, const Figure& figure) {
   constexpr double kClearance = 0.02;  // m, outside the waist: cloth thickness, and ease for a torso that bends
-  constexpr double kFlare = 0.42;       // growth of the radius by length
-  constexpr double kHem = 0.42;         // below the hip joints, by leg length; the knee is at about 0.5
+  constexpr double kFlare = 0.42;      // growth of the radius by length
+  constexpr double kHem = 0.42;        // below the hip joints, by leg length; the knee is at about 0.5
   Rings rings{std::move(sizes), {}, {}};
   const size_t count = rings.sizes.size();
   const double waist = (figure.waist_radius + kClearance) / std::cos(std::numbers::pi / rings.sizes[0]);
