@@ -32,6 +32,8 @@ void add_stick(const float from[3], const float to[3], uint32_t rgba, void* user
       {Eigen::Vector3f(from[0], from[1], from[2]), Eigen::Vector3f(to[0], to[1], to[2]), rgba, 3.0f});
 }
 
+constexpr uint32_t kShownSticks = PLEAT_DEBUG_BASE_NORMALS | PLEAT_DEBUG_FORCE_NORMALS | PLEAT_DEBUG_EDGE_LENGTH;
+
 /// One of the pictures of stages.png: the scene runs again to the frame, with the surface that the picture shows.
 class StagePainter {
  public:
@@ -55,9 +57,9 @@ class StagePainter {
   Cell sticks(uint32_t surface) {
     return paint(
         surface, "normals before (yellow) and after (orange), edge length (purple)", [this](View& view, Scene& scene) {
-          Frame frame = view.frame(scene);
-          scene.check(api_.world_debug_draw(scene.world(), ~uint32_t(PLEAT_DEBUG_COLLIDERS), add_stick, &frame.sticks),
-                      "debug drawing");
+          Frame frame = view.bodies(scene);  // over the coarse triangles, so that no stick hides under the surface
+          frame.meshes.push_back(view.coarse_cloth(scene));
+          scene.check(api_.world_debug_draw(scene.world(), kShownSticks, add_stick, &frame.sticks), "debug drawing");
           return frame;
         });
   }

@@ -40,7 +40,7 @@ void draw_base_normals(const World& world, const ClothRecord& cloth, const Lines
   const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
   Vec3Column base(std::pmr::new_delete_resource());
   base.resize(g.particle_count);
-  ParticleNormals{.mode = SurfaceMode::kPn, .garment = &g, .position = x, .normal = base.view()}.run();
+  ParticleNormals{.mode = SurfaceMode::kPn, .garment = &g, .position = x, .normal = base.view(), .fold = {}}.run();
   draw_normals(g, x, base.view(), kYellow, lines);
 }
 
