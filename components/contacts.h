@@ -15,7 +15,7 @@ struct ContactRow {
   float offset;               // d, m
   Vec3 body_step;             // motion of the touched point of the body over the substep, m
   float friction;             // Coulomb coefficient of the pair
-  float inverse_mass;         // sum of w_i b_i^2, 1/kg: how much the point yields to an impulse
+  float inverse_mass;         // 1/kg, sum of w_i b_i^2, or more near pins: how the point yields
   float push;                 // m, total distance pushed in this substep's sweeps
   bool at_particle;           // a particle row, as against one on an edge or a face
 };

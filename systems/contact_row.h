@@ -21,6 +21,11 @@ inline float contact_margin(ConstVec3View position, ConstVec3View previous, std:
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s
 inline constexpr float kRecoverySpeed = 2.0f;
 
+/// A point near a pinned particle hardly yields, and the free particles across from it would have to fly far to move
+/// it. They are let off: a row yields at least as if it were held with this share of its lightest particle. Rows
+/// without pins yield by more than that.
+inline constexpr float kLeastYield = 0.1f;
+
 /// A row undoes whatever brought the point nearer to the body in this substep, and of what was missing before it
 /// kRecoverySpeed dt: offset <= n . (where the point would be, had it moved with the body) + kRecoverySpeed dt.
 struct ContactRowMaker {
@@ -43,11 +48,14 @@ struct ContactRowMaker {
                    .push = 0.0f,
                    .at_particle = at_particle};
     Vec3 carried = body_step;
+    float lightest = 0.0f;
     for (int k = 0; k < 3; ++k) {
       carried += previous[particle[k]] * weight[k];
       row.inverse_mass += inverse_mass[particle[k]] * weight[k] * weight[k];
+      if (weight[k] > 0.0f) lightest = std::max(lightest, inverse_mass[particle[k]]);
     }
     if (!(row.inverse_mass > 0.0f)) return;
+    row.inverse_mass = std::max(row.inverse_mass, kLeastYield * lightest);
     row.offset = std::min(dot(normal, surface) + distance, dot(normal, carried) + kRecoverySpeed * dt);
     if (!contacts.add(row)) ++stats.contacts_dropped;
   }

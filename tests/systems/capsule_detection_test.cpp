@@ -179,6 +179,22 @@ TEST(CapsuleDetection, ACreaseBetweenCapsulesIsNoPinch) {
   for (const CapsulePose& capsule : capsules) EXPECT_LT(depth(cloth.x(0), capsule), -kThickness + 1e-5f);
 }
 
+TEST(CapsuleDetection, NothingFliesOffWhereABodyPressesAgainstAPin) {
+  // The body is 5 mm too near to edges that a pin holds 10 mm further on: to move them off it, their free ends would
+  // have to move 150 mm.
+  ContactCloth cloth({{0, 0, 0}, {0.3f, 0, 0}, {0.3f, 0, 0.1f}}, {{0, 2, 1}}, {0});
+  const std::vector<CapsulePose> capsules = {
+      {.a = {0.01f, -0.1f, -1}, .b = {0.01f, -0.1f, 1}, .step_a = {}, .step_b = {}, .radius = 0.1f}};
+  Stats stats;
+  detection(cloth, capsules).run(stats);
+  ASSERT_GT(cloth.row_count, 0u);
+  respond(cloth, 4);
+  for (const std::uint32_t i : {1u, 2u}) {
+    EXPECT_GT(cloth.x(i).y, 1e-4f);
+    EXPECT_LT(cloth.x(i).y, 0.015f);
+  }
+}
+
 TEST(CapsuleDetection, DegenerateFeaturesMakeFiniteRows) {
   const std::vector<Vec3> same = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, line = {{0, -1, 0}, {0, 0, 0}, {0, 1, 0}};
   for (const std::vector<Vec3>& x : {same, line}) {
