@@ -119,6 +119,24 @@ FineSolution relaxed(const pleat_api& api, const FineSquare& square, uint32_t n,
   return {std::move(after), motion};
 }
 
+}  // namespace
+
+demo::TriangleMesh flat_square(const pleat_api& api, uint32_t n) {
+  pleat_shape_def def;
+  api.shape_def_init(&def, sizeof def);
+  def.rows = def.columns = n;
+  def.alternate = 1;
+  uint32_t vertices = 0, triangles = 0;
+  api.shape_size(&def, &vertices, &triangles);
+  demo::TriangleMesh mesh;
+  mesh.positions.resize(3 * vertices);
+  mesh.triangles.resize(3 * triangles);
+  if (api.shape_build(&def, mesh.positions.data(), mesh.triangles.data()) != PLEAT_OK) {
+    throw std::runtime_error("the library cannot build a square of cloth");
+  }
+  return mesh;
+}
+
 FineSolution solve(const pleat_api& api, const FineSquare& square, const std::function<void()>& step) {
   FineSolution solution = relaxed(api, square, kSides[0], first_state(square, kSides[0]), step);
   for (size_t level = 1; level < std::size(kSides); ++level) {

@@ -1,6 +1,6 @@
 // Arc-PN: PN triangles whose edges leave their ends as fast as a circular arc would.
 // The cubic of a PN edge that turns by 2 alpha has tangents too short by cos alpha cos^2(alpha/2): its bulge is at most
-// 1/8 of the chord where that of an arc goes on growing. Lengthened tangents make the error on circles of order 6.
+// 1/8 of the chord where that of an arc goes on growing. Lengthened tangents are those of the best cubic for the arc.
 #pragma once
 
 #include "components/pn_edge.h"

@@ -9,42 +9,30 @@
 namespace pleat {
 namespace {
 
-constexpr float kForceFloor = 0.05f;  // f0 over k times the mean edge length
-constexpr int kRounds = 2;            // of looking at the folds
-constexpr float kReach = 2.5f;        // of a fold on the tangents at its ends: 2 for a parabola
-constexpr float kSureSide = 0.25f;    // dL/dh at h = 0 at which 70 % of a fold is believed
-constexpr float kOnset = 0.01f;       // as edge length control has it
+constexpr int kRounds = 2;          // of looking at the folds
+constexpr float kReach = 2.5f;      // of a fold on the tangents at its ends: 2 for a parabola
+constexpr float kSureSide = 0.25f;  // dL/dh at h = 0 at which 70 % of a fold is believed
+constexpr float kOnset = 0.01f;     // as edge length control has it
 constexpr float kTiny = 1e-20f;
 constexpr float kBaseFallback = 1e-9f;  // the base normal's share in kPaper, below any force but zero
 
-/// The share of a face at its three corners: the sum at each takes it times the cross product of two sides.
-template <SurfaceMode mode>
-inline std::array<float, 3> face_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& face,
-                                        const std::array<float, 3>& rest_length, float mean_length) {
+enum class Weighting { kBase, kFolded, kForce };
+
+/// Shares of a face in kPaper: the sums at its corners take them times the cross product of two sides.
+inline std::array<float, 3> force_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& face,
+                                         const std::array<float, 3>& rest_length, float mean_length) {
+  const auto force = [](const Vec3& side, float rest) { return side * (length(side) / rest - 1.0f); };
+  const Vec3 ab = force(b - a, rest_length[0]), bc = force(c - b, rest_length[1]), ca = force(a - c, rest_length[2]);
+  const float area2 = length(face);
+  const float unit = area2 > 1e-12f ? 1.0f / (area2 * mean_length) : 0.0f;
   std::array<float, 3> share = corner_weights(rest_length, mean_length);
-  if constexpr (mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat) {
-    const auto strain = [](const Vec3& side, float rest) {
-      const float e = length(side) / rest - 1.0f;
-      return mode == SurfaceMode::kPaper || e > 0.0f ? e : 0.0f;
-    };
-    const Vec3 ab = b - a, bc = c - b, ca = a - c;  // eq (1) over k, from each corner towards the next
-    const Vec3 fa = ab * strain(ab, rest_length[0]), fb = bc * strain(bc, rest_length[1]),
-               fc = ca * strain(ca, rest_length[2]);
-    const float scale = 1.0f / mean_length;
-    const std::array<float, 3> force{scale * length(fa - fc), scale * length(fb - fa), scale * length(fc - fb)};
-    if constexpr (mode == SurfaceMode::kPaper) {
-      const float area2 = length(face);
-      const float unit = area2 > 1e-12f ? 1.0f / area2 : 0.0f;
-      for (std::size_t k = 0; k < 3; ++k) share[k] = kBaseFallback * share[k] + unit * force[k];
-    } else {
-      for (std::size_t k = 0; k < 3; ++k) share[k] *= 1.0f + force[k] * (1.0f / kForceFloor);
-    }
-  }
+  for (float& x : share) x *= kBaseFallback;
+  share[0] += unit * length(ab - ca), share[1] += unit * length(bc - ab), share[2] += unit * length(ca - bc);
   return share;
 }
 
-/// N_i. Where `folded` the sides of a face leave its corners as s.fold says, else straight.
-template <SurfaceMode mode, bool folded>
+/// With kFolded the sides of a face leave its corners as s.fold says, else straight.
+template <Weighting weighting>
 void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
   clear(s.normal, g.particle_count);
@@ -57,14 +45,16 @@ void sum_normals(const ParticleNormals& s) {
       for (std::size_t k = 0; k < 3; ++k) {
         x[k].set(lane, s.position[g.face_particle[k][f]]);
         rest_length[k][lane] = g.edge_rest_length[g.face_edge[k][f]];
-        if constexpr (folded) bend[k].set(lane, s.fold[g.face_edge[k][f]]);
+        if constexpr (weighting == Weighting::kFolded) bend[k].set(lane, s.fold[g.face_edge[k][f]]);
       }
     }
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const Vec3 a = x[0][lane], b = x[1][lane], c = x[2][lane], face = cross(b - a, c - a);
-      const std::array<float, 3> share = face_shares<mode>(
-          a, b, c, face, {rest_length[0][lane], rest_length[1][lane], rest_length[2][lane]}, g.mean_edge_length);
-      if constexpr (folded) {
+      const std::array<float, 3> rest{rest_length[0][lane], rest_length[1][lane], rest_length[2][lane]};
+      const std::array<float, 3> share = weighting == Weighting::kForce
+                                             ? force_shares(a, b, c, face, rest, g.mean_edge_length)
+                                             : corner_weights(rest, g.mean_edge_length);
+      if constexpr (weighting == Weighting::kFolded) {
         const Vec3 ab = bend[0][lane], bc = bend[1][lane], ca = bend[2][lane];
         sum[0].set(lane, cross(b - a + ab, c - a + ca) * share[0]);
         sum[1].set(lane, cross(c - b + bc, a - b + ab) * share[1]);
@@ -132,9 +122,9 @@ bool add_folds(const ParticleNormals& s) {
 }
 
 void run_pleat(const ParticleNormals& s) {
-  sum_normals<SurfaceMode::kPleat, false>(s);
+  sum_normals<Weighting::kBase>(s);
   clear(s.fold, s.garment->edge_count);
-  for (int round = 0; round < kRounds && add_folds(s); ++round) sum_normals<SurfaceMode::kPleat, true>(s);
+  for (int round = 0; round < kRounds && add_folds(s); ++round) sum_normals<Weighting::kFolded>(s);
 }
 
 }  // namespace
@@ -147,11 +137,11 @@ bool ParticleNormals::validate() const {
 void ParticleNormals::run() const {
   switch (mode) {
     case SurfaceMode::kPaper:
-      return sum_normals<SurfaceMode::kPaper, false>(*this);
+      return sum_normals<Weighting::kForce>(*this);
     case SurfaceMode::kPleat:
       return run_pleat(*this);
     default:
-      return sum_normals<SurfaceMode::kPn, false>(*this);
+      return sum_normals<Weighting::kBase>(*this);
   }
 }
 

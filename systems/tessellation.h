@@ -15,6 +15,8 @@ namespace pleat {
 ///   kPaper  each face in four: PN triangles over its corners and its edges' moved middles
 ///   kPleat  the PN triangle plus the folds h n of its three edges, faded out over the four parts. A face without
 ///           folds is drawn as by kPn, bit for bit
+///   kPhong, kSpherigon  the flat triangles lifted point by point (components/projected_triangle.h)
+///   kArcPn  PN triangles with the tangents of circular arcs (components/arc_pn.h)
 /// Reads:  garment faces and edges; pattern; position (P) m; normal (P) unit, not for kFlat; fold (E) unit and
 ///         fold_height (E) m, for kPaper and kPleat only
 /// Writes: drawn_position (V) m

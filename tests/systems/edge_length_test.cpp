@@ -141,7 +141,7 @@ TEST(EdgeLength, PleatMeetsItsTarget) {
     const double step = 1e-4 * rest, slope = (c.folded_length(n * step) - c.folded_length(n * -step)) / (2.0 * step);
     EXPECT_GE(slope * static_cast<double>(edges.height[e]), -1e-6);
     EXPECT_LE(edges.drawn_length(e), target * 1.005);
-    if (std::abs(slope) < 0.081) continue;
+    if (std::abs(slope) < 0.151) continue;
     const double error = std::abs(edges.drawn_length(e) / target - 1.0);
     worst = std::max(worst, error), sum += error;
     ++sure;
