@@ -123,7 +123,7 @@ TEST(EdgeLength, PaperKeepsTheRestLengthToATenthOfAPercent) {
 }
 
 TEST(EdgeLength, PleatMeetsItsTarget) {
-  Edges edges = random_edges(SurfaceMode::kPleat, 100000, 2);
+  Edges edges = random_edges(SurfaceMode::kPleat, 120000, 2);
   edges.system().run();
   double worst = 0.0, sum = 0.0;
   int sure = 0;
