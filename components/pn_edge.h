@@ -84,4 +84,25 @@ inline float curve_length(const PnEdgeSpeeds& squared_speed) {
   return l;
 }
 
+/// The height of the fold that a short edge needs, for a straight edge exactly and for a curved one nearly.
+struct FoldHeight {
+  float wanted;  // m, the length to reach: deficit^2 / (deficit + onset) closer to the target than without a fold, so
+                 // that the height of the fold sets in smoothly
+  float beta, gamma;  // of the closed form: length0 dL/dh at h = 0, and its curvature
+  float height;       // m, >= 0; 0 where the edge is not short
+};
+
+/// length0: of the curve without a fold; target: what it should have, m; slope: dL/dh at h = 0, >= 0.
+/// The closed form is  h = gap / (beta + sqrt(beta^2 + gamma gap)),  gap = wanted^2 - length0^2.
+inline FoldHeight fold_height(float length0, float target, float slope) {
+  constexpr float kOnset = 0.01f;  // deficit, over the length, at which half of it is closed
+  constexpr float kTiny = 1e-20f;
+  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
+  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
+  const float wanted = length0 + closed, gap = closed * (length0 + wanted);
+  const float beta = length0 * slope;
+  const float ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
+  return {wanted, beta, gamma, gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny)};
+}
+
 }  // namespace pleat

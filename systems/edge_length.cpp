@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "components/pn_edge.h"
-#include "components/vec3_block.h"
+#include "components/edge_block.h"
 
 namespace pleat {
 namespace {
 
-constexpr float kOnset = 0.01f;     // deficit, over the length, at which half of it is closed
 constexpr float kSureSide = 0.15f;  // dL/dh at h = 0 from which on the side of the fold is certain: 4 % of bulge
 constexpr float kTiny = 1e-20f;
 
@@ -43,13 +41,8 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
   const float side = slope < 0.0f ? -1.0f : 1.0f;
   slope *= side;
 
-  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
-  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
-  const float wanted = length0 + closed;
-  const float ratio = length0 / wanted;
-  const float gap = closed * (length0 + wanted), beta = length0 * slope;
-  const float gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
-  float h = gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny);
+  const FoldHeight start = fold_height(length0, target, slope);
+  float h = start.height;
 
   float length_h = 0.0f;
   for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
@@ -57,32 +50,26 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
     const float s = speed2[i] + h * (2.0f * side * rise[i] + h * q.fold_rate * q.fold_rate);
     length_h += q.weight * std::sqrt(s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed);
   }
-  const float slope_h = (beta + gamma * h) / wanted;  // of the closed form
-  h += (wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
+  const float slope_h = (start.beta + start.gamma * h) / start.wanted;  // of the closed form
+  h += (start.wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
   h = h > 0.0f ? h : 0.0f;
 
   const float sure = slope < kSureSide ? slope * (1.0f / kSureSide) : 1.0f;
   const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
   const float height = side * sure * (1.5f - 0.5f * sure * sure) * defined * h;
-  return {n, deficit > 0.0f ? height : 0.0f};
+  return {n, target > length0 ? height : 0.0f};
 }
 
 void run_pleat(const EdgeLength& s) {
   const Garment& g = *s.garment;
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    Vec3Block a, b, na, nb, direction;
-    float target[kLanes], height[kLanes];
+    EdgeBlock block;
+    Vec3Block direction;
+    float height[kLanes];
+    block.gather(g, s.position, s.normal, begin, count);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t e = begin + std::min(lane, count - 1);
-      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
-      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
-      target[lane] = g.edge_rest_curve_length[e];
-    }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const PnEdge curve(a[lane], b[lane], na[lane], nb[lane]);
-      const Fold fold = pleat_fold(curve, na[lane] + nb[lane], target[lane]);
+      const Fold fold = pleat_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]);
       direction.set(lane, fold.direction);
       height[lane] = fold.height;
     }

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "components/base_normal.h"
-#include "components/pn_edge.h"
-#include "components/vec3_block.h"
+#include "components/edge_block.h"
 
 namespace pleat {
 namespace {
@@ -12,7 +11,6 @@ namespace {
 constexpr int kRounds = 2;          // of looking at the folds
 constexpr float kReach = 2.5f;      // of a fold on the tangents at its ends: 2 for a parabola
 constexpr float kSureSide = 0.25f;  // dL/dh at h = 0 at which 70 % of a fold is believed
-constexpr float kOnset = 0.01f;     // as edge length control has it
 constexpr float kTiny = 1e-20f;
 constexpr float kBaseFallback = 1e-9f;  // the base normal's share in kPaper, below any force but zero
 
@@ -71,23 +69,17 @@ void sum_normals(const ParticleNormals& s) {
 }
 
 /// How much the fold that a short edge will need turns the tangents at its ends: they go along the chord plus or minus
-/// the returned vector, m. The fold's height is that of a straight edge in closed form (see edge_length.cpp), on the
+/// the returned vector, m. The fold's height is that of a straight edge in closed form, on the
 /// side to which the normals say the edge bulges; the curve's length is the root of its mean squared speed.
 inline Vec3 bend_of_fold(const PnEdge& c, const Vec3& normals, float target) {
   const float dd = dot(c.d, c.d);
   const float length0 =
       std::sqrt(dd + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
-  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
-  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
-  const float wanted = length0 + closed, gap = closed * (length0 + wanted);
-
   const Vec3 across = normals - c.d * (dot(normals, c.d) / (dd + kTiny));
   const float width2 = dot(across, across);
   const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
   const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny);  // dL/dh at h = 0
-  const float beta = length0 * (slope < 0.0f ? -slope : slope);
-  const float ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
-  const float height = gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny);
+  const float height = fold_height(length0, target, slope < 0.0f ? -slope : slope).height;
 
   const float believed = slope / std::sqrt(slope * slope + kSureSide * kSureSide);
   const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
@@ -100,18 +92,11 @@ bool add_folds(const ParticleNormals& s) {
   bool any = false;
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    Vec3Block a, b, na, nb, bend;
-    float target[kLanes];
+    EdgeBlock block;
+    Vec3Block bend;
+    block.gather(g, s.position, s.normal, begin, count);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t e = begin + std::min(lane, count - 1);
-      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
-      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
-      target[lane] = g.edge_rest_curve_length[e];
-    }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const PnEdge curve(a[lane], b[lane], na[lane], nb[lane]);
-      bend.set(lane, bend_of_fold(curve, na[lane] + nb[lane], target[lane]));
+      bend.set(lane, bend_of_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]));
     }
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       s.fold.add(begin + lane, bend[lane]);
