@@ -269,6 +269,12 @@ INSTANTIATE_TEST_SUITE_P(All, Recording,
                          testing::Values("mass_kick", "mass_walk", "mass_run", "mass_pirouette", "mass_dance",
                                          "cmu_05_03_dance_arabesque", "cmu_13_13_forward_jump"));
 
+TEST_P(Recording, LosesItsCalibrationFramesOnly) {
+  const Clip clip = load_bvh(path_);
+  const bool calibrated = std::string(GetParam()).starts_with("cmu");
+  EXPECT_EQ(calibration_frames(fit_figure(clip), clip), calibrated ? 4u : 0u);
+}
+
 TEST(Figure, RecordedKickRisesOverTheHip) {
   const std::string path = PLEAT_SHARED_DATA "/mocap/mass_kick.bvh";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recording " << path;
