@@ -1,22 +1,20 @@
 // The program `frame_budget`: what a frame of a scene costs, stage by stage, and how good the cloth is for it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "bench/budget.h"
 #include "bench/budget_report.h"
-#include "demo/input_error.h"
+#include "demo/program/entry.h"
 #include "demo/program/output.h"
-#include "demo/program/progress.h"
 #include "demo/scenes/scene_reader.h"
 #include "engine/pleat.h"
 
 namespace {
 
-constexpr int kBadInput = 2, kOwnFailure = 1;
+using pleat::demo::kBadInput;
 
 int run_program(int argc, char** argv) {
   CLI::App app("What a frame of a scene costs, and how good the cloth is for it.", "frame_budget");
@@ -40,13 +38,12 @@ int run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
 
-  const pleat_api* api = pleat_get_api(PLEAT_API_MAJOR);
-  if (!api) throw std::runtime_error("libpleat does not speak version " + std::to_string(PLEAT_API_MAJOR));
-  const pleat::demo::SceneDef def = pleat::demo::load_scene(*api, request);
+  const pleat_api& api = pleat::demo::library();
+  const pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
   std::optional<pleat::demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
-  const pleat::bench::Budget budget = pleat::bench::measure_budget(*api, def, repeat);
-  if (json) json->commit(pleat::bench::budget_json(*api, def, budget).dump(2) + "\n");
+  const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat);
+  if (json) json->commit(pleat::bench::budget_json(api, def, budget).dump(2) + "\n");
   pleat::bench::print_budget(def, budget);
   return 0;
 }
@@ -54,14 +51,5 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    pleat::demo::catch_interrupt();
-    return run_program(argc, argv);
-  } catch (const pleat::demo::InputError& error) {
-    std::fprintf(stderr, "frame_budget: %s\n", error.what());
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "frame_budget: %s\n", error.what());
-    return kOwnFailure;
-  }
+  return pleat::demo::run_main("frame_budget", [=] { return run_program(argc, argv); });
 }

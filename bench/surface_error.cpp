@@ -1,7 +1,6 @@
 // The program `surface_error`: how far the drawn surface is from the truth, mode by mode.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +8,7 @@
 
 #include "bench/machine.h"
 #include "bench/surface_judge.h"
-#include "demo/input_error.h"
+#include "demo/program/entry.h"
 #include "demo/program/output.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/settings.h"
@@ -20,7 +19,7 @@ namespace {
 using namespace pleat::bench;
 namespace demo = pleat::demo;
 
-constexpr int kBadInput = 2, kOwnFailure = 1;
+using pleat::demo::kBadInput;
 constexpr uint32_t kCoarseSides[] = {5, 9, 17};
 
 std::string text(uint32_t n) { return std::to_string(n) + "x" + std::to_string(n); }
@@ -98,26 +97,16 @@ int run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
 
-  const pleat_api* api = pleat_get_api(PLEAT_API_MAJOR);
-  if (!api) throw std::runtime_error("libpleat does not speak version " + std::to_string(PLEAT_API_MAJOR));
+  const pleat_api& api = pleat::demo::library();
   std::optional<demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
-  if (again) regenerate(*api, folder);
-  compare(*api, folder, json);
+  if (again) regenerate(api, folder);
+  compare(api, folder, json);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    demo::catch_interrupt();
-    return run_program(argc, argv);
-  } catch (const demo::InputError& error) {
-    std::fprintf(stderr, "surface_error: %s\n", error.what());
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "surface_error: %s\n", error.what());
-    return kOwnFailure;
-  }
+  return pleat::demo::run_main("surface_error", [=] { return run_program(argc, argv); });
 }

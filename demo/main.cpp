@@ -1,21 +1,18 @@
 // The program `pleat`: runs scenes and shows them. All that it knows of the library is engine/pleat.h.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "demo/inform.h"
-#include "demo/input_error.h"
-#include "demo/program/progress.h"
+#include "demo/program/entry.h"
 #include "demo/run.h"
 #include "engine/pleat.h"
 
 namespace {
 
+using pleat::demo::kBadInput;
 using pleat::demo::PictureSize;
 using pleat::demo::RunOptions;
-
-constexpr int kBadInput = 2, kOwnFailure = 1;
 
 PictureSize parse_size(const std::string& text) {
   PictureSize size;
@@ -73,16 +70,5 @@ int run_program(int argc, char** argv, const pleat_api& api) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const pleat_api* api = pleat_get_api(PLEAT_API_MAJOR);
-    if (!api) throw std::runtime_error("libpleat does not speak version " + std::to_string(PLEAT_API_MAJOR));
-    pleat::demo::catch_interrupt();
-    return run_program(argc, argv, *api);
-  } catch (const pleat::demo::InputError& error) {
-    std::fprintf(stderr, "pleat: %s\n", error.what());
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pleat: %s\n", error.what());
-    return kOwnFailure;
-  }
+  return pleat::demo::run_main("pleat", [=] { return run_program(argc, argv, pleat::demo::library()); });
 }
