@@ -39,6 +39,11 @@ struct Row {
   void (*run)(ClothTick&);
 };
 
+/// The table in three parts, by what they are about and in the order in which they run.
+std::span<const Row> force_rows();
+std::span<const Row> constraint_rows();
+std::span<const Row> surface_rows();
+
 /// All systems of this build, in the order in which they run.
 std::span<const Row> schedule_table();
 

@@ -1,0 +1,134 @@
+// Rows from the predicted position to the end of a substep: contact, strain limit, velocities, the guard.
+#include "engine/schedule_row.h"
+#include "systems/finite_guard.h"
+#include "systems/stretch_constraint.h"
+#include "systems/velocity_update.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/capsule_detection.h"
+#include "systems/collider_motion.h"
+#include "systems/collision_bodies.h"
+#include "systems/collision_response.h"
+#include "systems/contact_friction.h"
+#include "systems/contact_row.h"
+#include "systems/mesh_detection.h"
+#endif
+
+namespace pleat {
+namespace {
+
+#ifdef PLEAT_WITH_COLLISION
+void respond(ClothTick& t) {
+  run(CollisionResponse{.contacts = contacts_of(t),
+                        .inverse_mass = t.inverse_mass,
+                        .face_response = static_cast<FaceResponse>(t.settings.face_response),
+                        .position = t.position},
+      t.world.stats);
+}
+#endif
+
+constexpr Row kRows[] = {
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kContact, "collider_motion", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(ColliderMotion{.capsules = &w.capsules,
+                          .bodies = w.bodies.get(),
+                          .particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .reach =
+                              t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count),
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .poses = w.capsule_poses.data(),
+                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                          .pose_count = &w.capsule_pose_count},
+           w.stats);
+     }},
+    {Phase::kContact, "capsule_detection", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(CapsuleDetection{.garment = &t.garment,
+                            .position = t.position,
+                            .previous = t.previous,
+                            .inverse_mass = t.inverse_mass,
+                            .capsules = w.capsule_poses.data(),
+                            .capsule_count = w.capsule_pose_count,
+                            .thickness = t.settings.thickness,
+                            .friction = t.settings.friction,
+                            .dt = t.dt,
+                            .scratch = w.detection_scratch.data(),
+                            .contacts = contacts_of(t)},
+           w.stats);
+     }},
+    {Phase::kContact, "mesh_detection", with_meshes,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(MeshDetection{.garment = &t.garment,
+                         .position = t.position,
+                         .previous = t.previous,
+                         .inverse_mass = t.inverse_mass,
+                         .bodies = w.bodies.get(),
+                         .meshes = w.mesh_pointers.data(),
+                         .t0 = t.t0,
+                         .t1 = t.t1,
+                         .thickness = t.settings.thickness,
+                         .friction = t.settings.friction,
+                         .dt = t.dt,
+                         .contacts = contacts_of(t)},
+           w.stats);
+     }},
+#endif
+
+    {Phase::kSweep, "stretch_constraint",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.stretch_limit < 1.0f ? kNeeded : "stretch_limit is 1 or more";
+     },
+     [](ClothTick& t) {
+       run(StretchConstraint{.garment = &t.garment,
+                             .inverse_mass = t.inverse_mass,
+                             .limit = t.settings.stretch_limit,
+                             .position = t.position},
+           t.world.stats);
+     }},
+
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kSweep, "collision_response", with_colliders, respond},
+    {Phase::kSubstepEnd, "contact_friction", with_colliders,
+     [](ClothTick& t) {
+       run(ContactFriction{
+           .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position});
+     }},
+    {Phase::kSubstepEnd, "collision_last_word", with_colliders, respond},
+#endif
+
+    {Phase::kSubstepEnd, "velocity_update", always,
+     [](ClothTick& t) {
+       run(VelocityUpdate{.particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .predicted = t.predicted,
+                          .inverse_mass = t.inverse_mass,
+                          .dt = t.dt,
+                          .velocity = t.velocity});
+     }},
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kSubstepEnd, "contact_velocity", with_colliders,
+     [](ClothTick& t) {
+       run(ContactVelocity{
+           .contacts = contacts_of(t), .inverse_mass = t.inverse_mass, .dt = t.dt, .velocity = t.velocity});
+     }},
+#endif
+    {Phase::kSubstepEnd, "finite_guard", always,
+     [](ClothTick& t) {
+       run(FiniteGuard{.particle_count = t.garment.particle_count,
+                       .previous = t.previous,
+                       .position = t.position,
+                       .velocity = t.velocity},
+           t.world.stats);
+     }},
+};
+
+}  // namespace
+
+std::span<const Row> constraint_rows() { return kRows; }
+
+}  // namespace pleat

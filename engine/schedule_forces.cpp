@@ -1,0 +1,155 @@
+// Rows from the begin of a substep to the integrated position: pins, forces, integration.
+#include "engine/schedule_row.h"
+#include "systems/air_damping.h"
+#include "systems/air_drag.h"
+#include "systems/edge_damping.h"
+#include "systems/elastic_force.h"
+#include "systems/gravity.h"
+#include "systems/hinge_bending.h"
+#include "systems/integration.h"
+#include "systems/pin_motion.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/contact_acceleration.h"
+#endif
+
+namespace pleat {
+namespace {
+
+bool runge_kutta(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4; }
+
+constexpr Row kRows[] = {
+    {Phase::kSubstepBegin, "pin_motion",
+     [](const World&, const ClothRecord& c) { return c.garment().pins.size() != 0 ? kNeeded : "no pins"; },
+     [](ClothTick& t) {
+       run(PinMotion{.garment = &t.garment,
+                     .pin_previous = t.pin_previous,
+                     .pin_next = t.pin_next,
+                     .t0 = t.t0,
+                     .t1 = t.t1,
+                     .dt = t.dt,
+                     .position = t.position,
+                     .velocity = t.velocity});
+     }},
+
+    {Phase::kStage, "elastic_force",
+     [](const World&, const ClothRecord& c) { return c.settings.stiffness > 0.0f ? kNeeded : "stiffness is 0"; },
+     [](ClothTick& t) {
+       run(ElasticForce{.garment = &t.garment,
+                        .position = t.position,
+                        .inverse_mass = t.inverse_mass,
+                        .stiffness = t.settings.stiffness,
+                        .dt = t.dt,
+                        .force = t.force});
+     }},
+    {Phase::kStage, "hinge_bending",
+     [](const World&, const ClothRecord& c) {
+       return c.garment().hinge_count == 0                                           ? "no two faces share an edge"
+              : c.settings.bend_stiffness == 0.0f && c.settings.bend_damping == 0.0f ? "bend_stiffness is 0"
+                                                                                     : kNeeded;
+     },
+     [](ClothTick& t) {
+       run(HingeBending{.garment = &t.garment,
+                        .position = t.position,
+                        .velocity = t.velocity,
+                        .inverse_mass = t.inverse_mass,
+                        .stiffness = t.settings.bend_stiffness,
+                        .damping_rate = t.settings.bend_damping,
+                        .dt = t.dt,
+                        .force = t.force});
+     }},
+    {Phase::kStage, "edge_damping",
+     [](const World&, const ClothRecord& c) { return c.settings.edge_damping > 0.0f ? kNeeded : "edge_damping is 0"; },
+     [](ClothTick& t) {
+       run(EdgeDamping{.garment = &t.garment,
+                       .position = t.position,
+                       .velocity = t.velocity,
+                       .inverse_mass = t.inverse_mass,
+                       .rate = t.settings.edge_damping,
+                       .dt = t.dt,
+                       .force = t.force});
+     }},
+    {Phase::kStage, "gravity",
+     [](const World& w, const ClothRecord&) {
+       const float* g = w.def.gravity;
+       return g[0] != 0.0f || g[1] != 0.0f || g[2] != 0.0f ? kNeeded : "gravity is 0";
+     },
+     [](ClothTick& t) {
+       const float* g = t.world.def.gravity;
+       run(Gravity{.particle_count = t.garment.particle_count,
+                   .mass = t.mass,
+                   .acceleration = {g[0], g[1], g[2]},
+                   .force = t.force});
+     }},
+    {Phase::kStage, "air_damping",
+     [](const World&, const ClothRecord& c) { return c.settings.air_damping > 0.0f ? kNeeded : "air_damping is 0"; },
+     [](ClothTick& t) {
+       run(AirDamping{.particle_count = t.garment.particle_count,
+                      .mass = t.mass,
+                      .velocity = t.velocity,
+                      .rate = t.settings.air_damping,
+                      .dt = t.dt,
+                      .force = t.force});
+     }},
+    {Phase::kStage, "air_drag",
+     [](const World& w, const ClothRecord& c) {
+       return c.settings.drag_coefficient == 0.0f ? "drag_coefficient is 0"
+              : w.def.air_density == 0.0f         ? "air_density is 0"
+                                                  : kNeeded;
+     },
+     [](ClothTick& t) {
+       const float* wind = t.world.def.wind;
+       run(AirDrag{.garment = &t.garment,
+                   .position = t.position,
+                   .velocity = t.velocity,
+                   .wind = {wind[0], wind[1], wind[2]},
+                   .air_density = t.world.def.air_density,
+                   .drag_coefficient = t.settings.drag_coefficient,
+                   .density = t.settings.density,
+                   .dt = t.dt,
+                   .force = t.force});
+     }},
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kStage, "contact_acceleration", with_colliders,
+     [](ClothTick& t) {
+       run(ContactAcceleration{.contacts = contacts_of(t),
+                               .position = t.position,
+                               .velocity = t.velocity,
+                               .inverse_mass = t.inverse_mass,
+                               .dt = t.dt,
+                               .force = t.force});
+     }},
+#endif
+    {Phase::kStage, "euler_integration",
+     [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? "integrates by Runge-Kutta" : kNeeded; },
+     [](ClothTick& t) {
+       run(EulerIntegration{.particle_count = t.garment.particle_count,
+                            .inverse_mass = t.inverse_mass,
+                            .force = t.force,
+                            .dt = t.dt,
+                            .symplectic = t.settings.integrator == PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
+                            .position = t.position,
+                            .velocity = t.velocity});
+     }},
+    {Phase::kStage, "runge_kutta_integration",
+     [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? kNeeded : "integrates by Euler"; },
+     [](ClothTick& t) {
+       RungeKuttaColumns& slopes = t.world.runge_kutta;
+       run(RungeKuttaIntegration{.particle_count = t.garment.particle_count,
+                                 .inverse_mass = t.inverse_mass,
+                                 .force = t.force,
+                                 .start_position = t.previous,
+                                 .dt = t.dt,
+                                 .stage = t.stage,
+                                 .position = t.position,
+                                 .velocity = t.velocity,
+                                 .start_velocity = slopes.start_velocity.view().from(t.cloth.particle_begin),
+                                 .position_slope = slopes.position_slope.view().from(t.cloth.particle_begin),
+                                 .velocity_slope = slopes.velocity_slope.view().from(t.cloth.particle_begin)});
+     }},
+};
+
+}  // namespace
+
+std::span<const Row> force_rows() { return kRows; }
+
+}  // namespace pleat

@@ -1,0 +1,112 @@
+// Rows at the end of a frame: the drawn surface.
+#include "engine/schedule_row.h"
+#ifdef PLEAT_WITH_SMOOTHING
+#include "systems/drawn_normals.h"
+#include "systems/edge_length.h"
+#include "systems/particle_normals.h"
+#include "systems/tessellation.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/collider_motion.h"
+#include "systems/surface_clearance.h"
+#endif
+#endif
+
+namespace pleat {
+
+#ifdef PLEAT_WITH_SMOOTHING
+namespace {
+
+SurfaceMode surface_mode(const pleat_cloth_settings& s) { return static_cast<SurfaceMode>(s.surface); }
+
+const char* with_normals(const World&, const ClothRecord& c) {
+  return c.settings.surface == PLEAT_SURFACE_FLAT ? "flat surface" : kNeeded;
+}
+const char* with_folds(const World&, const ClothRecord& c) {
+  return c.settings.surface == PLEAT_SURFACE_FLAT ? "flat surface"
+         : has_folds(surface_mode(c.settings))    ? kNeeded
+                                                  : "surface without folds, edges keep their curve";
+}
+
+constexpr Row kRows[] = {
+    {Phase::kFrameEnd, "particle_normals", with_normals,
+     [](ClothTick& t) {
+       run(ParticleNormals{.mode = surface_mode(t.settings),
+                           .garment = &t.garment,
+                           .position = t.position,
+                           .normal = t.normal,
+                           .fold = t.fold});
+     }},
+    {Phase::kFrameEnd, "edge_length", with_folds,
+     [](ClothTick& t) {
+       run(EdgeLength{.mode = surface_mode(t.settings),
+                      .garment = &t.garment,
+                      .position = t.position,
+                      .normal = t.normal,
+                      .fold = t.fold,
+                      .fold_height = t.fold_height});
+     }},
+    {Phase::kFrameEnd, "tessellation", always,
+     [](ClothTick& t) {
+       run(Tessellation{.mode = surface_mode(t.settings),
+                        .garment = &t.garment,
+                        .pattern = t.cloth.pattern(),
+                        .position = t.position,
+                        .normal = t.normal,
+                        .fold = t.fold,
+                        .fold_height = t.fold_height,
+                        .drawn_position = t.drawn_position});
+     }},
+#ifdef PLEAT_WITH_COLLISION
+    {Phase::kFrameEnd, "surface_footprint", with_capsules,
+     [](ClothTick& t) {
+       run(Tessellation{.mode = SurfaceMode::kFlat,
+                        .garment = &t.garment,
+                        .pattern = t.cloth.pattern(),
+                        .position = t.position,
+                        .normal = {},
+                        .fold = {},
+                        .drawn_position = t.world.footprint.view()});
+     }},
+    {Phase::kFrameEnd, "surface_capsules", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(ColliderMotion{.capsules = &w.capsules,
+                          .bodies = w.bodies.get(),
+                          .particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .reach = t.garment.mean_edge_length,  // the surface bulges less than that
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .poses = w.capsule_poses.data(),
+                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                          .pose_count = &w.capsule_pose_count},
+           w.stats);
+     }},
+    {Phase::kFrameEnd, "surface_clearance", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(SurfaceClearance{.garment = &t.garment,
+                            .pattern = t.cloth.pattern(),
+                            .footprint = w.footprint.view(),
+                            .capsules = w.capsule_poses.data(),
+                            .capsule_count = w.capsule_pose_count,
+                            .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
+                            .planes = w.clearance_planes.data(),
+                            .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),
+                            .drawn_position = t.drawn_position});
+     }},
+#endif
+    {Phase::kFrameEnd, "drawn_normals", always,
+     [](ClothTick& t) {
+       run(DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal});
+     }},
+};
+
+}  // namespace
+
+std::span<const Row> surface_rows() { return kRows; }
+#else
+std::span<const Row> surface_rows() { return {}; }
+#endif
+
+}  // namespace pleat
