@@ -63,5 +63,8 @@ pleat_result collider_destroy(pleat_world*, pleat_collider);
 pleat_result collider_set_enabled(pleat_world*, pleat_collider, uint32_t);
 pleat_result collider_move_capsule(pleat_world*, pleat_collider, const float[3], const float[3]);
 pleat_result collider_move_mesh(pleat_world*, pleat_collider, const float*, uint32_t, uint32_t);
+pleat_result collider_move_rigid(pleat_world*, pleat_collider, const float[3], const float[4]);
+pleat_result collider_get(const pleat_world*, pleat_collider, pleat_collider_settings*);
+pleat_result collider_set(pleat_world*, pleat_collider, const pleat_collider_settings*);
 
 }  // namespace pleat::call

@@ -1,6 +1,9 @@
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/collision_hull.h"
+#endif
 
 namespace pleat::call {
 namespace {
@@ -10,19 +13,39 @@ const pleat_collider_def& default_collider() {
     pleat_collider_def d{};
     d.size = sizeof d;
     d.friction = 1.0f;
+    d.rotation[3] = 1.0f;
     return d;
   }();
   return def;
 }
 
 #ifdef PLEAT_WITH_COLLISION
-constexpr std::uint32_t kMostBodyTriangles = 2'000'000;
+constexpr std::uint32_t kMostBodyTriangles = 2'000'000, kMostHullPoints = 65536;
+constexpr double kMostRadius = 1e4;  // m
 
 Vec3 as_vec3(const float v[3]) { return {v[0], v[1], v[2]}; }
 
 void need_inside(const char* name, const float v[3]) {
   need_finite(name, v);
   for (int k = 0; k < 3; ++k) need_range(name, v[k], -1e6, 1e6);
+}
+
+void need_settings(const pleat_collider_settings& s) {
+  need_range("friction", s.friction, 0, 10);
+  need_range("thickness", s.thickness, 0, 1);
+  need_range("radius", s.radius, 0, kMostRadius);
+  need_range("radius_b", s.radius_b, 0, kMostRadius);
+}
+
+RigidPose need_pose(const float position[3], const float rotation[4]) {
+  need_inside("position", position);
+  need_pointer("rotation", rotation);
+  const Quaternion q{rotation[0], rotation[1], rotation[2], rotation[3]};
+  const float length = std::sqrt(dot(q, q));
+  if (!(std::abs(length - 1.0f) <= 0.01f)) {  // also false for NaN
+    refuse("rotation has the length " + text(length) + ", must be a unit quaternion");
+  }
+  return {as_vec3(position), {q.x / length, q.y / length, q.z / length, q.w / length}};
 }
 
 MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
@@ -46,14 +69,94 @@ MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
   }
   mesh.triangles.resize(index_count);
   std::copy_n(def.triangles, index_count, mesh.triangles.begin());
-  mesh.friction = def.friction;
   return mesh;
 }
 
-ColliderRecord need_collider(const World& world, pleat_collider id, std::uint32_t shape, const char* shape_name) {
-  const ColliderRecord record = world.colliders[need_handle("collider", world.collider_handles, id)];
-  if (record.shape != shape) refuse(std::string("collider is not a ") + shape_name);
-  return record;
+std::pmr::vector<Vec3> read_corners(World& world, const pleat_collider_def& def) {
+  std::pmr::vector<Vec3> corners(&world.memory);
+  if (def.shape == PLEAT_COLLIDER_BOX) {
+    const Vec3 half = as_vec3(def.half_extents);
+    for (const float extent : def.half_extents) need_range("half_extents", extent, 1e-4, kMostRadius);
+    for (unsigned k = 0; k < 8; ++k) {
+      corners.push_back({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z});
+    }
+    return corners;
+  }
+  need_range("vertex_count", def.vertex_count, 4, kMostHullPoints);
+  const HostVectors positions("positions", def.positions, def.position_stride, def.vertex_count);
+  for (std::uint32_t i = 0; i < def.vertex_count; ++i) corners.push_back(positions[i]);
+  return corners;
+}
+
+MeshCollider read_hull(World& world, const pleat_collider_def& def) {
+  const RigidPose pose = need_pose(def.position, def.rotation);
+  MeshCollider hull = build_hull(read_corners(world, def), &world.memory);
+  if (hull.triangles.size() == 0) refuse("positions lie in a plane: they have no hull with an inside");
+  place_rigid(hull, pose);
+  return hull;
+}
+
+Handle add_collider(World& world, const pleat_collider_def& def) {
+  switch (def.shape) {
+    case PLEAT_COLLIDER_SPHERE:
+      need_inside("a", def.a);
+      return add_capsule(world, def.shape, as_vec3(def.a), as_vec3(def.a));
+    case PLEAT_COLLIDER_CAPSULE:
+    case PLEAT_COLLIDER_TAPERED_CAPSULE:
+      need_inside("a", def.a);
+      need_inside("b", def.b);
+      return add_capsule(world, def.shape, as_vec3(def.a), as_vec3(def.b));
+    case PLEAT_COLLIDER_PLANE:
+      return add_plane(world, need_pose(def.position, def.rotation));
+    case PLEAT_COLLIDER_MESH:
+      return add_mesh(world, def.shape, read_mesh(world, def));
+    default:
+      return add_mesh(world, def.shape, read_hull(world, def));
+  }
+}
+
+/// `body` is whatever of a world's colliders has these settings.
+template <class Body>
+void set_margins(Body& body, const pleat_collider_settings& s) {
+  body.friction = s.friction;
+  body.thickness = s.thickness;
+}
+
+void set_collider(World& world, const ColliderRecord& record, const pleat_collider_settings& s) {
+  const std::size_t i = record.position;
+  switch (record.kind) {
+    case ColliderKind::kCapsule:
+      world.capsules.friction[i] = s.friction;
+      world.capsules.thickness[i] = s.thickness;
+      world.capsules.radius[i] = s.radius;
+      world.capsules.taper[i] = record.shape == PLEAT_COLLIDER_TAPERED_CAPSULE ? s.radius_b - s.radius : 0.0f;
+      break;
+    case ColliderKind::kMesh:
+      set_margins(world.meshes[i].mesh, s);
+      break;
+    case ColliderKind::kPlane:
+      set_margins(world.planes[i], s);
+      break;
+  }
+}
+
+pleat_collider_settings settings_of(const World& world, const ColliderRecord& record) {
+  const std::size_t i = record.position;
+  const CapsuleColumns& c = world.capsules;
+  constexpr auto size = static_cast<std::uint32_t>(sizeof(pleat_collider_settings));
+  switch (record.kind) {
+    case ColliderKind::kCapsule:
+      return {size, c.friction[i], c.thickness[i], c.radius[i], c.radius[i] + c.taper[i]};
+    case ColliderKind::kMesh:
+      return {size, world.meshes[i].mesh.friction, world.meshes[i].mesh.thickness, 0.0f, 0.0f};
+    case ColliderKind::kPlane:
+      break;
+  }
+  return {size, world.planes[i].friction, world.planes[i].thickness, 0.0f, 0.0f};
+}
+
+const ColliderRecord& need_collider(const World& world, pleat_collider id) {
+  return world.colliders[need_handle("collider", world.collider_handles, id)];
 }
 #endif
 
@@ -69,20 +172,14 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     need_pointer("collider", collider);
     const pleat_collider_def def = read_def("def", given, default_collider());
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
-    need_range("shape", def.shape, 0, PLEAT_COLLIDER_MESH);
-    need_range("friction", def.friction, 0, 10);
+    need_range("shape", def.shape, 0, PLEAT_COLLIDER_HULL);
 #ifdef PLEAT_WITH_COLLISION
+    const pleat_collider_settings settings{sizeof settings, def.friction, def.thickness, def.radius, def.radius_b};
+    need_settings(settings);
     const std::size_t before = world.colliders.size();
     try {
-      Handle added;
-      if (def.shape == PLEAT_COLLIDER_CAPSULE) {
-        need_inside("a", def.a);
-        need_inside("b", def.b);
-        need_range("radius", def.radius, 0, 1e4);
-        added = add_capsule(world, as_vec3(def.a), as_vec3(def.b), def.radius, def.friction);
-      } else {
-        added = add_mesh(world, read_mesh(world, def));
-      }
+      const Handle added = add_collider(world, def);
+      set_collider(world, world.colliders.back(), settings);
       replan(world);
       *collider = {added.index, added.generation};
     } catch (...) {
@@ -112,11 +209,17 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    const ColliderRecord record = world.colliders[need_handle("collider", world.collider_handles, collider)];
-    if (record.shape == PLEAT_COLLIDER_CAPSULE) {
-      world.capsules.enabled[record.position] = enabled != 0 ? 1 : 0;
-    } else {
-      world.meshes[record.position].mesh.enabled = enabled != 0;
+    const ColliderRecord& record = need_collider(world, collider);
+    switch (record.kind) {
+      case ColliderKind::kCapsule:
+        world.capsules.enabled[record.position] = enabled != 0 ? 1 : 0;
+        break;
+      case ColliderKind::kMesh:
+        world.meshes[record.position].mesh.enabled = enabled != 0;
+        break;
+      case ColliderKind::kPlane:
+        world.planes[record.position].enabled = enabled != 0;
+        break;
     }
 #endif
   });
@@ -128,11 +231,13 @@ pleat_result collider_move_capsule(pleat_world* handle, [[maybe_unused]] pleat_c
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    const ColliderRecord record = need_collider(world, collider, PLEAT_COLLIDER_CAPSULE, "capsule");
+    const ColliderRecord& record = need_collider(world, collider);
+    if (record.kind != ColliderKind::kCapsule) refuse("collider is not a capsule or a sphere");
+    const float* end = record.shape == PLEAT_COLLIDER_SPHERE ? a : b;
     need_inside("a", a);
-    need_inside("b", b);
+    need_inside("b", end);
     world.capsules.next_a.view().set(record.position, as_vec3(a));
-    world.capsules.next_b.view().set(record.position, as_vec3(b));
+    world.capsules.next_b.view().set(record.position, as_vec3(end));
 #endif
   });
 }
@@ -144,7 +249,9 @@ pleat_result collider_move_mesh(pleat_world* handle, [[maybe_unused]] pleat_coll
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    MeshRecord& record = world.meshes[need_collider(world, collider, PLEAT_COLLIDER_MESH, "mesh").position];
+    const ColliderRecord& body = need_collider(world, collider);
+    if (body.shape != PLEAT_COLLIDER_MESH) refuse("collider is not a mesh");
+    MeshRecord& record = world.meshes[body.position];
     MeshCollider& mesh = record.mesh;
     if (count != mesh.next.size()) {
       refuse("count is " + std::to_string(count) + ", the mesh has " + std::to_string(mesh.next.size()) + " vertices");
@@ -152,6 +259,56 @@ pleat_result collider_move_mesh(pleat_world* handle, [[maybe_unused]] pleat_coll
     const HostVectors host("positions", positions, stride, count);
     for (std::uint32_t i = 0; i < count; ++i) mesh.next.view().set(i, host[i]);
     record.stale_ticks = 2;
+#endif
+  });
+}
+
+pleat_result collider_move_rigid(pleat_world* handle, [[maybe_unused]] pleat_collider collider,
+                                 [[maybe_unused]] const float position[3], [[maybe_unused]] const float rotation[4]) {
+  return guarded(as_world(handle), "collider_move_rigid", [&] {
+    [[maybe_unused]] World& world = need_world(handle);
+    need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
+#ifdef PLEAT_WITH_COLLISION
+    const ColliderRecord& body = need_collider(world, collider);
+    const bool rigid_mesh = body.kind == ColliderKind::kMesh && world.meshes[body.position].mesh.is_rigid();
+    if (!rigid_mesh && body.kind != ColliderKind::kPlane) refuse("collider is not a plane, a box or a hull");
+    const RigidPose pose = need_pose(position, rotation);
+    if (rigid_mesh) {
+      move_rigid(world.meshes[body.position].mesh, pose);
+      world.meshes[body.position].stale_ticks = 2;
+    } else {
+      world.planes[body.position].next = pose;
+    }
+#endif
+  });
+}
+
+pleat_result collider_get(const pleat_world* handle, [[maybe_unused]] pleat_collider collider,
+                          pleat_collider_settings* settings) {
+  return guarded(as_world(handle), "collider_get", [&] {
+    [[maybe_unused]] const World& world = need_world(handle);
+    need_pointer("settings", settings);
+    need_range("settings.size", settings->size, sizeof settings->size, sizeof(pleat_collider_settings));
+    need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
+#ifdef PLEAT_WITH_COLLISION
+    const std::uint32_t size = settings->size;
+    const pleat_collider_settings all = settings_of(world, need_collider(world, collider));
+    std::memcpy(settings, &all, size);
+    settings->size = size;
+#endif
+  });
+}
+
+pleat_result collider_set(pleat_world* handle, [[maybe_unused]] pleat_collider collider,
+                          [[maybe_unused]] const pleat_collider_settings* settings) {
+  return guarded(as_world(handle), "collider_set", [&] {
+    [[maybe_unused]] World& world = need_world(handle);
+    need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
+#ifdef PLEAT_WITH_COLLISION
+    const ColliderRecord& record = need_collider(world, collider);
+    const pleat_collider_settings wanted = read_def("settings", settings, settings_of(world, record));
+    need_settings(wanted);
+    set_collider(world, record, wanted);
 #endif
   });
 }

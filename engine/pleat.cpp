@@ -46,6 +46,9 @@ constexpr pleat_api kApi = {
     .collider_set_enabled = call::collider_set_enabled,
     .collider_move_capsule = call::collider_move_capsule,
     .collider_move_mesh = call::collider_move_mesh,
+    .collider_move_rigid = call::collider_move_rigid,
+    .collider_get = call::collider_get,
+    .collider_set = call::collider_set,
 };
 
 }  // namespace

@@ -227,21 +227,38 @@ typedef struct pleat_vertex_target {
 /* ---- colliders ------------------------------------------------------------------------------------------------- */
 
 enum {
-  PLEAT_COLLIDER_CAPSULE = 0, /* all points within radius of the segment ab; a = b makes a sphere */
-  PLEAT_COLLIDER_MESH = 1     /* triangles with outward, counter-clockwise faces; vertices may move each frame */
+  PLEAT_COLLIDER_CAPSULE = 0,         /* all points within radius of the segment ab */
+  PLEAT_COLLIDER_MESH = 1,            /* triangles with outward, counter-clockwise faces; vertices may move each frame */
+  PLEAT_COLLIDER_SPHERE = 2,          /* all points within radius of a */
+  PLEAT_COLLIDER_TAPERED_CAPSULE = 3, /* the hull of a ball of radius about a and one of radius_b about b */
+  PLEAT_COLLIDER_PLANE = 4,           /* all points below the plane y = 0 of the body's frame */
+  PLEAT_COLLIDER_BOX = 5,             /* all points within half_extents of the origin of the body's frame */
+  PLEAT_COLLIDER_HULL = 6             /* the convex hull of positions in the body's frame; not flat */
 };
 typedef struct pleat_collider_def {
   uint32_t size;
   uint32_t shape;
-  float a[3], b[3];       /* capsule: ends of the core, m */
-  float radius;           /* capsule: m, >= 0 */
-  const float* positions; /* mesh: m */
+  float a[3], b[3];       /* capsules: ends of the core, m; sphere: center a */
+  float radius;           /* sphere, capsules: m, >= 0 */
+  const float* positions; /* mesh: in the world, m; hull: in the body's frame, at most 65536 */
   uint32_t position_stride;
   uint32_t vertex_count;
   const uint32_t* triangles; /* mesh: 3 indices each */
   uint32_t triangle_count;
-  float friction; /* multiplied by the cloth's; default 1 */
+  float friction;        /* multiplied by the cloth's; default 1, 0..10 */
+  float thickness;       /* kept from it besides the cloth's, m; default 0 */
+  float radius_b;        /* tapered capsule: of the ball about b, m, >= 0 */
+  float position[3];     /* plane, box, hull: origin of the body's frame, m */
+  float rotation[4];     /* of that frame, a unit quaternion x, y, z, w; default 0, 0, 0, 1 */
+  float half_extents[3]; /* box: m, > 0 */
 } pleat_collider_def;
+
+/* Settings that may change while the collider lives (collider_set). Filled by collider_get. */
+typedef struct pleat_collider_settings {
+  uint32_t size;
+  float friction, thickness; /* as in pleat_collider_def */
+  float radius, radius_b;    /* sphere, capsules; of a plain one both are the same. Others: 0, not read */
+} pleat_collider_settings;
 
 /* ---- what happened ---------------------------------------------------------------------------------------------- */
 
@@ -330,11 +347,17 @@ typedef struct pleat_api {
   pleat_result (*collider_create)(pleat_world* world, const pleat_collider_def* def, pleat_collider* collider);
   pleat_result (*collider_destroy)(pleat_world* world, pleat_collider collider);
   pleat_result (*collider_set_enabled)(pleat_world* world, pleat_collider collider, uint32_t enabled);
-  /* Where the collider shall be at the end of the next tick; it moves there over its substeps. */
+  /* Where the collider shall be at the end of the next tick; it moves there over its substeps. A sphere moves to a. */
   pleat_result (*collider_move_capsule)(pleat_world* world, pleat_collider collider, const float a[3],
                                         const float b[3]);
   pleat_result (*collider_move_mesh)(pleat_world* world, pleat_collider collider, const float* positions,
                                      uint32_t stride, uint32_t count);
+  /* Planes, boxes and hulls: the origin moves in a straight line, the rotation (x, y, z, w) at a constant rate. */
+  pleat_result (*collider_move_rigid)(pleat_world* world, pleat_collider collider, const float position[3],
+                                      const float rotation[4]);
+  /* settings->size says how much of it the caller knows. */
+  pleat_result (*collider_get)(const pleat_world* world, pleat_collider collider, pleat_collider_settings* settings);
+  pleat_result (*collider_set)(pleat_world* world, pleat_collider collider, const pleat_collider_settings* settings);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

@@ -57,7 +57,8 @@ void make_room(World& world, const ClothRecord& cloth) {
     at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
     at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
     at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
-    if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr && world.capsules.size() != 0) {
+    if (const TessellationPattern* pattern = cloth.pattern();
+        pattern != nullptr && world.capsules.size() + world.planes.size() != 0) {
       if (world.footprint.size() < pattern->vertex_count) world.footprint.resize(pattern->vertex_count);
       at_least(world.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
     }
@@ -130,7 +131,10 @@ void settle_poses(World& world) {
   for (MeshRecord& record : world.meshes) {
     if (record.stale_ticks == 0) continue;
     copy(record.mesh.previous.view(), record.mesh.next.view(), record.mesh.next.size());
+    record.mesh.previous_pose = record.mesh.next_pose;
+    record.mesh.bow = 0.0f;
   }
+  for (PlaneCollider& plane : world.planes) plane.previous = plane.next;
 }
 
 /// Files the bodies of this tick in their trees.

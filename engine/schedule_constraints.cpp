@@ -11,6 +11,7 @@
 #include "systems/contact_friction.h"
 #include "systems/contact_row.h"
 #include "systems/mesh_detection.h"
+#include "systems/plane_detection.h"
 #endif
 
 namespace pleat {
@@ -58,6 +59,23 @@ constexpr Row kRows[] = {
                             .dt = t.dt,
                             .scratch = w.detection_scratch.data(),
                             .contacts = contacts_of(t)},
+           w.stats);
+     }},
+    {Phase::kContact, "plane_detection", with_planes,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(PlaneDetection{.particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .previous = t.previous,
+                          .inverse_mass = t.inverse_mass,
+                          .planes = w.planes.data(),
+                          .plane_count = w.planes.size(),
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .thickness = t.settings.thickness,
+                          .friction = t.settings.friction,
+                          .dt = t.dt,
+                          .contacts = contacts_of(t)},
            w.stats);
      }},
     {Phase::kContact, "mesh_detection", with_meshes,

@@ -57,7 +57,7 @@ constexpr Row kRows[] = {
                         .drawn_position = t.drawn_position});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kFrameEnd, "surface_footprint", with_capsules,
+    {Phase::kFrameEnd, "surface_footprint", with_capsules_or_planes,
      [](ClothTick& t) {
        run(Tessellation{.mode = SurfaceMode::kFlat,
                         .garment = &t.garment,
@@ -82,14 +82,17 @@ constexpr Row kRows[] = {
                           .pose_count = &w.capsule_pose_count},
            w.stats);
      }},
-    {Phase::kFrameEnd, "surface_clearance", with_capsules,
+    {Phase::kFrameEnd, "surface_clearance", with_capsules_or_planes,
      [](ClothTick& t) {
        World& w = t.world;
        run(SurfaceClearance{.garment = &t.garment,
                             .pattern = t.cloth.pattern(),
                             .footprint = w.footprint.view(),
                             .capsules = w.capsule_poses.data(),
-                            .capsule_count = w.capsule_pose_count,
+                            .capsule_count = w.capsules.size() != 0 ? w.capsule_pose_count : 0,
+                            .half_spaces = w.planes.data(),
+                            .half_space_count = w.planes.size(),
+                            .t = t.t1,
                             .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
                             .planes = w.clearance_planes.data(),
                             .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),

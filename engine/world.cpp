@@ -66,22 +66,6 @@ void close_drawn_gap(World& world, const ClothRecord& cloth) {
   }
 }
 
-#ifdef PLEAT_WITH_COLLISION
-/// Everything that adding a collider needs besides its own data.
-void want_bodies(World& world) {
-  world.collider_handles.reserve_one();
-  reserve_one_more(world.colliders);
-  if (world.bodies != nullptr) return;
-  std::pmr::polymorphic_allocator<> allocator(&world.memory);
-  world.bodies = {allocator.new_object<CollisionBodies>(&world.memory), MemoryDelete{&world.memory}};
-}
-
-void point_at_meshes(World& world) {
-  world.mesh_pointers.clear();
-  for (const MeshRecord& record : world.meshes) world.mesh_pointers.push_back(&record.mesh);
-}
-#endif
-
 /// For columns that only some scenes have, or that had no room for their last cloth yet.
 template <class AnyColumn>
 void erase_if_present(AnyColumn& column, std::size_t begin, std::size_t count) {
@@ -107,6 +91,7 @@ World::World(const pleat_world_def& definition)
       drawn(&memory),
       capsules(&memory),
       meshes(&memory),
+      planes(&memory),
       mesh_pointers(&memory),
       capsule_poses(&memory),
       contacts(&memory),
@@ -240,64 +225,5 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   return sizeof(ClothRecord) + range_of(g.particle_count) * particle + range_of(g.pins.size()) * 2 * sizeof(Vec3) +
          range_of(g.edge_count) * edge + drawn_range(cloth) * 2 * sizeof(Vec3);
 }
-
-#ifdef PLEAT_WITH_COLLISION
-Handle add_capsule(World& world, const Vec3& a, const Vec3& b, float radius, float friction) {
-  want_bodies(world);
-  CapsuleColumns& c = world.capsules;
-  const std::size_t i = c.size();
-  for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) column->resize(i + 1);
-  c.friction.resize(i + 1);
-  c.enabled.resize(i + 1);
-  c.radius.resize(i + 1);  // last: it is what size() goes by
-  c.previous_a.view().set(i, a), c.next_a.view().set(i, a);
-  c.previous_b.view().set(i, b), c.next_b.view().set(i, b);
-  c.radius[i] = radius;
-  c.friction[i] = friction;
-  c.enabled[i] = 1;
-  world.colliders.push_back({PLEAT_COLLIDER_CAPSULE, static_cast<std::uint32_t>(i)});
-  return world.collider_handles.add();
-}
-
-Handle add_mesh(World& world, MeshCollider&& mesh) {
-  want_bodies(world);
-  world.mesh_pointers.reserve(world.meshes.size() + 1);
-  world.meshes.emplace_back(std::move(mesh));
-  try {
-    world.bodies->add_mesh(world.meshes.back().mesh);
-  } catch (...) {
-    world.meshes.pop_back();
-    throw;
-  }
-  point_at_meshes(world);
-  world.colliders.push_back({PLEAT_COLLIDER_MESH, static_cast<std::uint32_t>(world.meshes.size() - 1)});
-  return world.collider_handles.add();
-}
-
-void remove_collider(World& world, std::uint32_t position) {
-  const ColliderRecord gone = world.colliders[position];
-  if (gone.shape == PLEAT_COLLIDER_CAPSULE) {
-    CapsuleColumns& c = world.capsules;
-    for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) column->erase(gone.position, 1);
-    c.radius.erase(gone.position, 1);
-    c.friction.erase(gone.position, 1);
-    c.enabled.erase(gone.position, 1);
-  } else {
-    world.bodies->remove_mesh(gone.position);
-    world.meshes.erase(world.meshes.begin() + gone.position);
-    point_at_meshes(world);
-  }
-  world.colliders.erase(world.colliders.begin() + position);
-  for (ColliderRecord& other : world.colliders) {
-    if (other.shape == gone.shape && other.position > gone.position) --other.position;
-  }
-  world.collider_handles.remove(position);
-  drop_idle_bodies(world);
-}
-
-void drop_idle_bodies(World& world) {
-  if (world.colliders.empty()) world.bodies.reset();
-}
-#endif
 
 }  // namespace pleat

@@ -64,9 +64,13 @@ struct MeshRecord {
   explicit MeshRecord(MeshCollider&& m) : mesh(std::move(m)) {}
 };
 
+/// What a shape is made of: spheres and tapered capsules are capsules, boxes and hulls are meshes.
+enum class ColliderKind : std::uint8_t { kCapsule, kMesh, kPlane };
+
 struct ColliderRecord {
-  std::uint32_t shape = 0;     // PLEAT_COLLIDER_*
-  std::uint32_t position = 0;  // in the capsule columns or the list of meshes
+  std::uint32_t shape = 0;  // PLEAT_COLLIDER_*
+  ColliderKind kind = ColliderKind::kCapsule;
+  std::uint32_t position = 0;  // in the columns of its kind
 };
 
 /// Gives an object back to the resource it came from.
@@ -100,6 +104,7 @@ struct World {
 
   CapsuleColumns capsules;
   std::pmr::deque<MeshRecord> meshes;
+  Column<PlaneCollider> planes;
   std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
 
@@ -132,10 +137,12 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
 /// Bytes of state that this cloth alone takes.
 std::uint64_t bytes_of(const World& world, const ClothRecord& cloth);
 
-Handle add_capsule(World& world, const Vec3& a, const Vec3& b, float radius, float friction);
-Handle add_mesh(World& world, MeshCollider&& mesh);
+/// A body at rest, next to those of its kind. Throws std::bad_alloc; the world is unchanged then.
+Handle add_capsule(World& world, std::uint32_t shape, const Vec3& a, const Vec3& b);
+Handle add_mesh(World& world, std::uint32_t shape, MeshCollider&& mesh);
+Handle add_plane(World& world, const RigidPose& pose);
 void remove_collider(World& world, std::uint32_t position);
-/// Bullet's objects go when no collider is left.
+/// Bullet's objects go when no capsule and no mesh is left.
 void drop_idle_bodies(World& world);
 
 }  // namespace pleat

@@ -1,5 +1,6 @@
 #include "systems/capsule_detection.h"
 
+#include "systems/capsule_shape.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
@@ -18,8 +19,7 @@ struct CapsuleTest {
   const CapsulePose& capsule;
   ContactRowMaker rows;
   float margin;
-  float distance = capsule.radius + in.thickness;  // that is kept from the core
-  float reach = distance + margin;
+  float reach = widest_radius(capsule) + in.thickness + margin;    // from the core
   float* distance2 = in.scratch;                                   // (P) squared, from the core
   const float* length2 = in.scratch + in.garment->particle_count;  // (E) squared
 
@@ -34,24 +34,28 @@ struct CapsuleTest {
   Vec3 core(float t) const { return lerp(capsule.a, capsule.b, t); }
   Vec3 core_step(float t) const { return lerp(capsule.step_a, capsule.step_b, t); }
   Vec3 core_before(float t) const { return core(t) - core_step(t); }
+  float distance(float t) const { return radius_at(capsule, t) + in.thickness; }  // that is kept from the core
 
-  /// The distance to keep from the core at a point p of the cloth that is `missing` closer than it should be.
+  /// What of the distance to keep from the core is given up at a point p of the cloth that is `missing` closer than it
+  /// should be.
   /// Where another capsule presses the cloth against this one and the gap is too narrow for it, each gives way by half
   /// of what is missing, so that their rows meet half way and do not throw the cloth to and fro. That is for surfaces
   /// that face each other; where they part at a right angle or wider the cloth can leave and neither gives way.
-  float distance_kept(const Vec3& p, const Vec3& normal, float missing) const {
+  float given_up(const Vec3& p, const Vec3& normal, float missing) const {
     float given = 0.0f;
     for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
       const CapsulePose& other = in.capsules[c];
-      const float needed = other.radius + in.thickness + missing;  // from the other's core, for room enough
-      if (&other == &capsule || needed <= 0.0f) continue;
-      const Vec3 away = p - lerp(other.a, other.b, closest_on_segment(p, other.a, other.b));
+      if (&other == &capsule) continue;
+      const float t = closest_on_capsule(p, other);
+      const float needed = radius_at(other, t) + in.thickness + missing;  // from the other's core, for room enough
+      if (needed <= 0.0f) continue;
+      const Vec3 away = p - lerp(other.a, other.b, t);
       const float facing = -dot(normal, away), d2 = dot(away, away);
       if (facing <= 0.0f || d2 >= needed * needed) continue;
       const float d = std::sqrt(d2);
       given = std::max(given, 0.5f * (needed - d) * std::min(1.0f, 2.0f * facing / d));  // in full within 60 degrees
     }
-    return distance - given;
+    return given;
   }
 
   void measure_particles() const {
@@ -71,7 +75,7 @@ struct CapsuleTest {
     const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
     const Vec3 fallback = normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
     const Vec3 normal = dot(away, away) > 1e-12f ? normalized_or(away * side, fallback) : fallback;
-    const float kept = distance_kept(core(t) + away, normal, distance - dot(normal, away));
+    const float kept = distance(t) - given_up(core(t) + away, normal, distance(t) - dot(normal, away));
     rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats);
   }
 
@@ -79,7 +83,7 @@ struct CapsuleTest {
     for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
       if (!(distance2[i] < reach * reach) || in.inverse_mass[i] == 0.0f) continue;
       const Vec3 p = in.position[i];
-      const float t = closest_on_segment(p, capsule.a, capsule.b);
+      const float t = closest_on_capsule(p, capsule);
       add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, p - core(t), in.previous[i] - core_before(t), true, stats);
     }
   }
@@ -99,7 +103,7 @@ struct CapsuleTest {
       const std::uint32_t i = first[e], j = second[e];
       if (edge_is_beyond(distance2[i], distance2[j], length2[e], reach * reach)) continue;
       const Vec3 xi = in.position[i], xj = in.position[j];
-      const SegmentPair at = closest_between_segments(xi, xj, capsule.a, capsule.b);
+      const SegmentPair at = closest_to_capsule(xi, xj, capsule);
       if (at.s < kEndShare || at.s > 1.0f - kEndShare) continue;
       const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
       if (!(dot(away, away) < reach * reach)) continue;
@@ -134,7 +138,7 @@ struct CapsuleTest {
         const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
         const Vec3 normal = area * (side / std::sqrt(area2));
         const float away = -dot(w, normal);
-        const float kept = distance_kept(core(t) + normal * away, normal, distance - away);
+        const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
         rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
       }
     }

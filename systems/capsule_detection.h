@@ -1,7 +1,8 @@
 // Where a cloth touches capsules.
 //   M. Oshita, A. Makinouchi, 2001, section 4.4: a coarse face may cut a body although its corners are outside, so
-//   edges and faces are tested as well as particles. A capsule is a segment with a radius; the places where a triangle
-//   and a segment come closest are a corner, an edge, or an end of the segment over the face, and each makes a row.
+//   edges and faces are tested as well as particles. A capsule is a segment with a radius that is linear along it; the
+//   places where a triangle comes closest to it are a corner, an edge, or an end of the segment over the face, and each
+//   makes a row.
 #pragma once
 
 #include "components/colliders.h"

@@ -3,6 +3,21 @@
 #include "systems/closest_points.h"
 
 namespace pleat {
+namespace {
+
+/// Where the ball at one end holds the other, they are that ball.
+void drop_swallowed_end(CapsulePose& c) {
+  const Vec3 core = c.b - c.a;
+  if (c.taper == 0.0f || dot(core, core) > c.taper * c.taper * 1.0001f) return;
+  if (c.taper > 0.0f) {
+    c.a = c.b, c.step_a = c.step_b, c.radius += c.taper;
+  } else {
+    c.b = c.a, c.step_b = c.step_a;
+  }
+  c.taper = 0.0f;
+}
+
+}  // namespace
 
 bool ColliderMotion::validate() const {
   return capsules != nullptr && bodies != nullptr && position.x != nullptr && poses != nullptr &&
@@ -29,9 +44,11 @@ void ColliderMotion::run(Stats& stats) const {
                 .b = lerp(b0[i], b1[i], t1),
                 .step_a = (a1[i] - a0[i]) * (t1 - t0),
                 .step_b = (b1[i] - b0[i]) * (t1 - t0),
-                .radius = capsules->radius[i],
+                .radius = capsules->radius[i] + capsules->thickness[i],
+                .taper = capsules->taper[i],
                 .friction = capsules->friction[i],
                 .index = i};
+    drop_swallowed_end(poses[k]);
   }
   *pose_count = count;
 }

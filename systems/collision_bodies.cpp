@@ -21,7 +21,7 @@ Box swept_box_of(const CapsuleColumns& capsules, std::size_t i) {
   for (const Vec3Column* end : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
     box.include(end->view()[i]);
   }
-  return box.grown(capsules.radius[i]);
+  return box.grown(capsules.radius[i] + std::max(capsules.taper[i], 0.0f) + capsules.thickness[i]);
 }
 
 /// The tree of one mesh. Bullet refits it from the corners of triangles; given the "triangle" (low, high, high) of each
@@ -71,6 +71,7 @@ struct MeshTree {
         box.include(previous[mesh.triangles[3 * t + k]]);
         box.include(next[mesh.triangles[3 * t + k]]);
       }
+      box = box.grown(mesh.bow);
       bounds.include(box.low);
       bounds.include(box.high);
       const float six[] = {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z};

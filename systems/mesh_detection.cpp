@@ -9,7 +9,6 @@
 namespace pleat {
 namespace {
 
-constexpr float kMeshDepth = 0.03f;      // m below the surface from which a particle is still brought back
 constexpr float kFlatSlope = 0.02f;      // a body vertex counts as standing out while none around is steeper than this
 constexpr float kTouching = 1e-4f;       // m; nearer than this the body's own normal is better than the difference
 constexpr std::size_t kRowsPerFace = 4;  // the deepest body vertices over a face
@@ -37,9 +36,10 @@ struct MeshTest {
   float margin;
   Stats& stats;
   float friction = pose.mesh.friction;
-  float reach = in.thickness + margin;
+  float thickness = in.thickness + pose.mesh.thickness;
+  float reach = thickness + margin;
   // Particles that start deep are looked for once a tick only.
-  float search = in.t0 == 0.0f ? std::max(reach, kMeshDepth) : reach;
+  float search = in.t0 == 0.0f ? std::max(reach, pose.mesh.depth) : reach;
 
   void test_face(std::uint32_t face, std::size_t mesh) const {
     Face f;
@@ -134,14 +134,14 @@ struct MeshTest {
       outward = body.normal();
     }
     const bool inside = dot(away, outward) < 0.0f;
-    if (inside ? border || distance2 > kMeshDepth * kMeshDepth : distance2 > reach * reach) return;
+    if (inside ? border || distance2 > pose.mesh.depth * pose.mesh.depth : distance2 > reach * reach) return;
     const bool own_normal = zeros == 0 || distance2 < kTouching * kTouching;
     const Vec3 normal = normalized_or(own_normal ? outward : inside ? -away : away, Vec3{});
     if (normal == Vec3{}) return;
     const Vec3 step =
         at.point(pose.step(pose.corner(t, 0)), pose.step(pose.corner(t, 1)), pose.step(pose.corner(t, 2)));
     const std::uint32_t i = f.particle[c];
-    rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, in.thickness, step, friction, true, stats);
+    rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, thickness, step, friction, true, stats);
   }
 
   /// A vertex q of the body, of the triangle `around`, over the inside of the face. Where it stands out, the normal of
@@ -164,7 +164,7 @@ struct MeshTest {
   }
 
   void add_face_row(const Face& f, const Standing& s) const {
-    rows.add(f.particle, s.weight, s.normal, pose.vertex(s.vertex), in.thickness, pose.step(s.vertex), friction, false,
+    rows.add(f.particle, s.weight, s.normal, pose.vertex(s.vertex), thickness, pose.step(s.vertex), friction, false,
              stats);
   }
 
@@ -192,7 +192,7 @@ struct MeshTest {
     const SegmentPair at{s / common2, r / common2};
     const std::uint32_t va = pose.corner(t, k), vb = pose.corner(t, (k + 1) % 3);
     rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - at.s, at.s, 0.0f}, normal, lerp(a, b, at.t),
-             in.thickness, lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
+             thickness, lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
   }
 };
 
@@ -206,11 +206,12 @@ bool MeshDetection::validate() const {
 
 void MeshDetection::run(Stats& stats) const {
   const float margin = contact_margin(position, previous, garment->particle_count);
-  const Box box = box_of(position, garment->particle_count).grown(std::max(thickness + margin, kMeshDepth));
+  const Box cloth = box_of(position, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   const std::uint32_t first = *contacts.count;
   for (std::size_t m = 0; m < bodies->mesh_count(); ++m) {
-    if (!meshes[m]->enabled || !box.overlaps(bodies->swept_box(m))) continue;
+    const float search = std::max(thickness + meshes[m]->thickness + margin, meshes[m]->depth);
+    if (!meshes[m]->enabled || !cloth.grown(search).overlaps(bodies->swept_box(m))) continue;
     const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, margin, stats};
     for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
   }

@@ -11,14 +11,19 @@ struct MeshPose {
   const MeshCollider& mesh;
   const BodyTopology& topology;
   float t0, t1;  // fractions of the tick; the pose is the one at t1
-  ConstVec3View previous = mesh.previous.view(), next = mesh.next.view();
+  ConstVec3View previous = mesh.previous.view(), next = mesh.next.view(), local = mesh.local.view();
+  bool rigid = mesh.is_rigid();
+  RigidPose begin = interpolate(mesh.previous_pose, mesh.next_pose, t0);
+  RigidPose end = interpolate(mesh.previous_pose, mesh.next_pose, t1);
 
   std::uint32_t corner(std::uint32_t triangle, int k) const {
     return mesh.triangles[3 * triangle + static_cast<std::uint32_t>(k)];
   }
-  Vec3 vertex(std::uint32_t v) const { return lerp(previous[v], next[v], t1); }
+  Vec3 vertex(std::uint32_t v) const { return rigid ? end.apply(local[v]) : lerp(previous[v], next[v], t1); }
   /// Motion from t0 to t1.
-  Vec3 step(std::uint32_t v) const { return (next[v] - previous[v]) * (t1 - t0); }
+  Vec3 step(std::uint32_t v) const {
+    return rigid ? end.apply(local[v]) - begin.apply(local[v]) : (next[v] - previous[v]) * (t1 - t0);
+  }
 
   struct Corners {
     Vec3 a, b, c;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "systems/closest_points.h"
+#include "systems/capsule_shape.h"
 
 namespace pleat {
 namespace {
@@ -11,25 +11,26 @@ namespace {
 constexpr int kMostSweeps = 8;          // one settles planes that agree; opposed ones converge within a few
 constexpr float kSettledDepth = 1e-6f;  // m behind a plane that is not worth another sweep
 
-/// From the nearest point of segment pq to that of triangle abc; short or zero where they cross. The two come closest
-/// on a side of the triangle or at an end of the segment that is over its inside.
-Vec3 from_core(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+/// To the point of triangle abc nearest to the capsule, from the core there; short or zero where they cross. The two
+/// come closest on a side of the triangle or at an end of the core that is over its inside.
+Vec3 from_core(const CapsulePose& capsule, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 corner[] = {a, b, c, a};
   Vec3 nearest;
-  float nearest2 = std::numeric_limits<float>::max();
-  const auto consider = [&](const Vec3& d) {
-    if (dot(d, d) < nearest2) nearest = d, nearest2 = dot(d, d);
+  float least = std::numeric_limits<float>::max();
+  const auto consider = [&](const Vec3& away, float t) {
+    const float distance = length(away) - radius_at(capsule, t);
+    if (distance < least) nearest = away, least = distance;
   };
   for (int k = 0; k < 3; ++k) {
-    const SegmentPair at = closest_between_segments(corner[k], corner[k + 1], p, q);
-    consider(lerp(corner[k], corner[k + 1], at.s) - lerp(p, q, at.t));
+    const SegmentPair at = closest_to_capsule(corner[k], corner[k + 1], capsule);
+    consider(lerp(corner[k], corner[k + 1], at.s) - lerp(capsule.a, capsule.b, at.t), at.t);
   }
   const Vec3 u = b - a, v = c - a, area = cross(u, v);
   const float area2 = dot(area, area);
-  for (const Vec3& end : {p, q}) {
-    const Vec3 w = end - a;
+  for (const float t : {0.0f, 1.0f}) {
+    const Vec3 w = (t == 0.0f ? capsule.a : capsule.b) - a;
     const float wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
-    if (wb > 0.0f && wc > 0.0f && wb + wc < area2) consider(area * (-dot(w, area) / area2));
+    if (wb > 0.0f && wc > 0.0f && wb + wc < area2) consider(area * (-dot(w, area) / area2), t);
   }
   return nearest;
 }
@@ -94,13 +95,26 @@ struct Lifter {
 
   void gather(std::uint32_t f) {
     FaceVertices face(in, f);
+    for (std::size_t k = 0; k < in.half_space_count; ++k) {
+      if (in.half_spaces[k].enabled) keep_above(face, {in.half_spaces[k], in.t});
+    }
     for (std::uint32_t k = 0; k < in.capsule_count; ++k) {
       const CapsulePose& capsule = in.capsules[k];
-      const float kept = capsule.radius + in.clearance, near = kept + face.size + face.bulge;
+      const float kept = widest_radius(capsule) + in.clearance, near = kept + face.size + face.bulge;
       const Vec3 away = face.center - lerp(capsule.a, capsule.b, closest_on_segment(face.center, capsule.a, capsule.b));
       if (dot(away, away) >= near * near) continue;
       face.measure(capsule);
       add_planes(face, capsule, kept);
+    }
+  }
+
+  /// A half-space is its own plane for every vertex, also for those that a capsule may still move by a bulge.
+  void keep_above(const FaceVertices& face, const PlanePose& body) {
+    const float height = body.height + in.clearance;
+    if (dot(body.normal, face.center) >= height + face.size + 2.0f * face.bulge) return;
+    for (std::uint32_t i = 0; i < face.count; ++i) {
+      const std::uint32_t v = face.drawn[i];
+      if (dot(body.normal, in.drawn_position[v]) < height + face.bulge) add({body.normal, height, {v, v, v}});
     }
   }
 
@@ -111,7 +125,7 @@ struct Lifter {
     const std::uint32_t* end = t + in.pattern->face_triangles.size();
     for (; t != end; t += 3) {
       const float nearest2 = std::min({face.distance2[t[0]], face.distance2[t[1]], face.distance2[t[2]]});
-      if (nearest2 < far2 && !stays_out(face, t, nearest2, kept)) add_plane(face, t, capsule, kept);
+      if (nearest2 < far2 && !stays_out(face, t, nearest2, kept)) add_plane(face, t, capsule);
     }
   }
 
@@ -134,14 +148,18 @@ struct Lifter {
     return distance >= kept + fall;
   }
 
-  void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule, float kept) {
+  void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule) {
     const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
-    const Vec3 away = from_core(capsule.a, capsule.b, a, b, c);
+    const Vec3 away = from_core(capsule, a, b, c);
     const float distance = length(away);
     const Vec3 normal = distance > 1e-9f ? away * (1.0f / distance) : normalized_or(cross(b - a, c - a), Vec3{0, 1, 0});
-    const float height = std::max(dot(normal, capsule.a), dot(normal, capsule.b)) + kept;
+    const float height = std::max(dot(normal, capsule.a), dot(normal, capsule.b) + capsule.taper) + capsule.radius;
+    add({normal, height + in.clearance, {face.drawn[t[0]], face.drawn[t[1]], face.drawn[t[2]]}});
+  }
+
+  void add(const ClearancePlane& plane) {
     if (count == in.plane_capacity) settle();
-    in.planes[count++] = {normal, height, {face.drawn[t[0]], face.drawn[t[1]], face.drawn[t[2]]}};
+    in.planes[count++] = plane;
   }
 
   void settle() {
@@ -166,12 +184,12 @@ struct Lifter {
 
 bool SurfaceClearance::validate() const {
   return garment != nullptr && pattern != nullptr && footprint.x != nullptr &&
-         (capsules != nullptr || capsule_count == 0) && clearance >= 0.0f && planes != nullptr && plane_capacity > 0 &&
-         drawn_position.x != nullptr;
+         (capsules != nullptr || capsule_count == 0) && (half_spaces != nullptr || half_space_count == 0) &&
+         clearance >= 0.0f && planes != nullptr && plane_capacity > 0 && drawn_position.x != nullptr;
 }
 
 void SurfaceClearance::run() const {
-  if (capsule_count == 0) return;
+  if (capsule_count + half_space_count == 0) return;
   Lifter lifter{*this};
   for (std::uint32_t f = 0; f < garment->face_count; ++f) lifter.gather(f);
   lifter.settle();

@@ -1,4 +1,4 @@
-// Keeps the drawn surface out of the capsules that the cloth touches.
+// Keeps the drawn surface out of the capsules and above the planes that the cloth touches.
 //
 // Contact keeps the coarse triangles outside, but the curved surface between them bulges up to some centimetres towards
 // the body. A drawn triangle lies over a small flat one, its footprint on the coarse triangle, and that one is outside:
@@ -22,10 +22,10 @@
 
 namespace pleat {
 
-/// Moves drawn vertices so that every drawn triangle keeps at least `clearance` from every capsule, up to rounding. One
-/// sweep does it where the planes at a vertex agree (all angles between their normals are at most 90 degrees); where
-/// they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are outside.
-/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
+/// Moves drawn vertices so that every drawn triangle keeps at least `clearance` from every capsule and plane, up to
+/// rounding. One sweep does it where the planes at a vertex agree (all angles between their normals are at most 90
+/// degrees); where they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are
+/// outside. Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
 /// Writes: drawn_position (V) m; planes (scratch; when it is full what it holds is settled first)
 /// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
 struct SurfaceClearance {
@@ -34,6 +34,9 @@ struct SurfaceClearance {
   ConstVec3View footprint;
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
+  const PlaneCollider* half_spaces = nullptr;
+  std::size_t half_space_count = 0;
+  float t = 1.0f;          // fraction of the tick at which the half-spaces are asked for
   float clearance = 0.0f;  // m
   ClearancePlane* planes = nullptr;
   std::uint32_t plane_capacity = 0;

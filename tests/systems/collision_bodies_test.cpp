@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "systems/capsule_shape.h"
 #include "systems/collider_motion.h"
 #include "tests/systems/contact_scene.h"
 
@@ -23,6 +24,8 @@ CapsuleColumns random_capsules(std::size_t count, std::mt19937& random) {
       c->view().set(i, centre + Vec3{little(random), little(random), little(random)});
     }
     capsules.radius.push_back(0.1f);
+    capsules.taper.push_back(i % 2 == 0 ? 0.05f : 0.0f);
+    capsules.thickness.push_back(0.01f);
     capsules.friction.push_back(0.5f);
     capsules.enabled.push_back(i % 7 != 0);
   }
@@ -32,7 +35,7 @@ CapsuleColumns random_capsules(std::size_t count, std::mt19937& random) {
 Box capsule_box(const CapsuleColumns& c, std::size_t i) {
   Box box;
   for (const Vec3Column* end : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) box.include(end->view()[i]);
-  return box.grown(c.radius[i]);
+  return box.grown(c.radius[i] + c.taper[i] + c.thickness[i]);
 }
 
 TEST(CollisionBodies, FindsEveryEnabledCapsuleThroughMovesAndRemovals) {
@@ -117,6 +120,7 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
     EXPECT_LT(length(poses[k].a - (from + (to - from) * 0.5f)), 1e-6f);
     EXPECT_LT(length(poses[k].step_a - (to - from) * 0.25f), 1e-6f);
     EXPECT_EQ(poses[k].friction, 0.5f);
+    EXPECT_FLOAT_EQ(widest_radius(poses[k]), i % 2 == 0 ? 0.16f : 0.11f);  // with its own thickness
   }
   EXPECT_EQ(stats.contacts_dropped, 0u);
   const std::uint32_t all = count;
@@ -126,6 +130,35 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
   EXPECT_EQ(stats.contacts_dropped, all - 1);
   motion.t0 = 1.0f, motion.t1 = 0.5f;
   EXPECT_FALSE(motion.validate());
+}
+
+TEST(ColliderMotion, ABallThatHoldsTheOtherIsAllThereIs) {
+  CapsuleColumns capsules(memory());
+  for (Vec3Column* c : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) c->resize(2);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    capsules.previous_b.view().set(i, {0.1f, 0, 0});
+    capsules.next_b.view().set(i, {0.1f, 0, 0});
+    capsules.radius.push_back(i == 0 ? 0.05f : 0.3f);
+    capsules.taper.push_back(i == 0 ? 0.25f : -0.25f);
+    capsules.thickness.push_back(0.0f);
+    capsules.friction.push_back(1.0f);
+    capsules.enabled.push_back(1);
+  }
+  CollisionBodies bodies(memory());
+  bodies.update_capsules(capsules);
+  ContactCloth cloth({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}});
+  std::vector<CapsulePose> poses(2);
+  std::uint32_t count = 0;
+  Stats stats;
+  ColliderMotion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.0f, 1.0f, poses.data(), 2, &count}.run(stats);
+  ASSERT_EQ(count, 2u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const float x = i == 0 ? 0.1f : 0.0f;
+    EXPECT_EQ(poses[i].a, (Vec3{x, 0, 0}));
+    EXPECT_EQ(poses[i].b, (Vec3{x, 0, 0}));
+    EXPECT_FLOAT_EQ(poses[i].radius, 0.3f);
+    EXPECT_EQ(poses[i].taper, 0.0f);
+  }
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ CapsulePose capsule(const Vec3& a, const Vec3& b, float radius) {
 struct Clearance {
   Surface& surface;
   std::vector<CapsulePose> capsules;
+  std::vector<PlaneCollider> half_spaces = {};
   Vec3Column footprint{std::pmr::get_default_resource()};
   std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
 
@@ -35,6 +36,8 @@ struct Clearance {
             .footprint = footprint.view(),
             .capsules = capsules.data(),
             .capsule_count = static_cast<std::uint32_t>(capsules.size()),
+            .half_spaces = half_spaces.data(),
+            .half_space_count = half_spaces.size(),
             .clearance = kClearance,
             .planes = planes.data(),
             .plane_capacity = static_cast<std::uint32_t>(planes.size()),
@@ -50,7 +53,8 @@ float least_distance(const Surface& s, ConstVec3View x, const CapsulePose& c) {
     const Vec3 p = x[s.pattern.indices[t]], q = x[s.pattern.indices[t + 1]], r = x[s.pattern.indices[t + 2]];
     for (int i = 0; i <= kSamples; ++i) {
       const Vec3 core = lerp(c.a, c.b, static_cast<float>(i) / kSamples);
-      least = std::min(least, length(closest_on_triangle(core, p, q, r).point(p, q, r) - core) - c.radius);
+      least = std::min(least, length(closest_on_triangle(core, p, q, r).point(p, q, r) - core) -
+                                  (c.radius + c.taper * static_cast<float>(i) / kSamples));
     }
   }
   return least;
@@ -96,9 +100,27 @@ TEST(SurfaceClearance, RandomCapsulesBelowACurvedClothProperty) {
     const float r = radius(random), top = -r - 0.005f;
     Clearance c{s,
                 {capsule({along(random), top - tilt(random), along(random)}, {along(random), top, along(random)}, r)}};
+    CapsulePose& body = c.capsules[0];
+    if (trial % 2 == 0) body.taper = std::clamp(0.1f * along(random), -r, 0.5f * length(body.b - body.a));
+    if (body.taper > 0.0f) body.b.y -= body.taper;
     c.system().run();
     EXPECT_GE(least_distance(s, s.drawn.view(), c.capsules[0]), kClearance - kRounding) << "trial " << trial;
   }
+}
+
+TEST(SurfaceClearance, DrawnVerticesStayAboveAPlaneNextToACapsule) {
+  SaggingSheet s(0.05f);
+  PlaneCollider ground;
+  ground.next.position = {0, -0.3f, 0};  // where it will be counts later
+  ground.previous.position = {0, -0.02f, 0};
+  Clearance c{s, {log_under_sheet()}, {ground}};
+  SurfaceClearance system = c.system();
+  system.t = 0.0f;
+  system.run();
+  EXPECT_GE(least_distance(s, s.drawn.view(), c.capsules[0]), kClearance - kRounding);
+  float lowest = 1.0f;
+  for (const Vec3& x : drawn(s)) lowest = std::min(lowest, x.y);
+  EXPECT_NEAR(lowest, -0.02f + kClearance, kRounding);
 }
 
 TEST(SurfaceClearance, SurfaceThatFellBehindTheCoreReturnsToItsSide) {

@@ -1,0 +1,31 @@
+#include "systems/plane_detection.h"
+
+#include "systems/contact_row.h"
+
+namespace pleat {
+
+bool PlaneDetection::validate() const {
+  return position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
+         (planes != nullptr || plane_count == 0) && contacts.count != nullptr && thickness >= 0.0f &&
+         friction >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f;
+}
+
+void PlaneDetection::run(Stats& stats) const {
+  const float reach = thickness + contact_margin(position, previous, particle_count);
+  const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
+  for (std::size_t k = 0; k < plane_count; ++k) {
+    const PlaneCollider& plane = planes[k];
+    if (!plane.enabled) continue;
+    const PlanePose pose(plane, t1);
+    const RigidStep step(interpolate(plane.previous, plane.next, t0), interpolate(plane.previous, plane.next, t1));
+    for (std::uint32_t i = 0; i < particle_count; ++i) {
+      const float above = dot(pose.normal, position[i]) - pose.height;
+      if (!(above < reach)) continue;
+      const Vec3 surface = position[i] - pose.normal * above;
+      rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, pose.normal, surface, thickness, step.at(surface), plane.friction, true,
+               stats);
+    }
+  }
+}
+
+}  // namespace pleat
