@@ -65,6 +65,11 @@ void draw_colliders(const World& world, const Lines& lines) {
   for (std::size_t i = 0; i < world.capsules.size(); ++i) {
     lines.line(world.capsules.next_a.view()[i], world.capsules.next_b.view()[i], kBlue);
   }
+  for (const PlaneCollider& plane : world.planes) {  // a square of 1 m with the normal in its middle
+    const Vec3 corner[] = {{0.5f, 0, 0.5f}, {0.5f, 0, -0.5f}, {-0.5f, 0, -0.5f}, {-0.5f, 0, 0.5f}};
+    for (int k = 0; k < 4; ++k) lines.line(plane.next.apply(corner[k]), plane.next.apply(corner[(k + 1) % 4]), kBlue);
+    lines.line(plane.next.position, plane.next.apply({0, 0.25f, 0}), kBlue);
+  }
   for (const MeshRecord& record : world.meshes) {
     const MeshCollider& mesh = record.mesh;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {

@@ -281,7 +281,7 @@ enum {
   PLEAT_DEBUG_BASE_NORMALS = 1u << 1,  /* yellow: before normal control (the paper, figure 8d) */
   PLEAT_DEBUG_FORCE_NORMALS = 1u << 2, /* orange: after it */
   PLEAT_DEBUG_EDGE_LENGTH = 1u << 3,   /* purple: from an edge's midpoint to where edge length control moved it */
-  PLEAT_DEBUG_COLLIDERS = 1u << 4      /* blue: capsule cores and mesh edges */
+  PLEAT_DEBUG_COLLIDERS = 1u << 4      /* blue: capsule cores, planes' squares and mesh edges */
 };
 
 /* ---- the table -------------------------------------------------------------------------------------------------- */

@@ -100,7 +100,7 @@ struct MeshTest {
     }
     if (low > reach || high < -reach) return;
     for (int k = 0; k < 3; ++k) {
-      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k], body);
+      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k]);
       if (!pose.topology.owns_edge(t, k)) continue;
       for (int c = 0; c < 3; ++c) {
         if (near_edge[c]) test_edges(f, c, t, body, k);
@@ -144,16 +144,16 @@ struct MeshTest {
     rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, thickness, step, friction, true, stats);
   }
 
-  /// A vertex q of the body, of the triangle `around`, over the inside of the face. Where it stands out, the normal of
-  /// any triangle around tells its side; elsewhere the side does not matter.
-  void test_vertex(Face& f, std::uint32_t vertex, const Vec3& q, const MeshPose::Corners& around) const {
+  /// A vertex q of the body over the inside of the face. Where it stands out, its angle-weighted normal tells its side,
+  /// for needles too; elsewhere the side does not matter.
+  void test_vertex(Face& f, std::uint32_t vertex, const Vec3& q) const {
     const Vec3 w = q - f.x[0];
     const float height = -dot(w, f.normal);
     if (!(f.area2 > 1e-16f) || std::abs(height) > reach) return;
     const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
     const float b1 = dot(cross(w, v), f.area) / f.area2, b2 = dot(cross(u, w), f.area) / f.area2;
     if (!(b1 > 0.0f && b2 > 0.0f && b1 + b2 < 1.0f)) return;
-    const float side = dot(cross(around.b - around.a, around.c - around.a), f.normal) < 0.0f ? -1.0f : 1.0f;
+    const float side = dot(pose.vertex_normal(vertex), f.normal) < 0.0f ? -1.0f : 1.0f;
     const Standing found{side * height, vertex, {1.0f - b1 - b2, b1, b2}, f.normal * side};
     const bool full = f.standing_count == kRowsPerFace;
     Standing* highest = std::max_element(f.standing.data(), f.standing.data() + f.standing_count,
