@@ -17,6 +17,8 @@ void add_particles(const GarmentInput& input, Garment& g) {
   g.uv.resize(input.uvs.size());
   std::copy(input.uvs.begin(), input.uvs.end(), g.uv.begin());
   g.particle_area.resize(g.particle_count);
+  g.added_mass.resize(g.particle_count);
+  std::copy(input.added_mass.begin(), input.added_mass.end(), g.added_mass.begin());
   g.pinned.resize(g.particle_count);
   g.pins.resize(input.pins.size());
   std::copy(input.pins.begin(), input.pins.end(), g.pins.begin());
@@ -135,6 +137,7 @@ Garment::Garment(std::pmr::memory_resource* m)
     : rest_position(m),
       uv(m),
       particle_area(m),
+      added_mass(m),
       pinned(m),
       pins(m),
       face_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},

@@ -24,6 +24,7 @@ struct Garment {
   Vec3Column rest_position;  // m
   Column<float> uv;
   Column<float> particle_area;  // m2, a third of the adjacent faces' area; 0 where no face is
+  Column<float> added_mass;     // kg, besides the cloth's own
   Column<std::uint8_t> pinned;  // 1 where the host moves the particle
   Column<std::uint32_t> pins;   // pinned particles in the host's order
 
@@ -54,6 +55,7 @@ struct GarmentInput {
   std::span<const float> uvs;           // 2 a vertex, or empty
   std::span<const std::uint32_t> pins;  // distinct, < positions.size()
   std::span<const std::array<std::uint32_t, 2>> seams;
+  std::span<const float> added_mass = {};  // kg a particle, or empty: none
 };
 
 /// Builds the asset. Throws std::bad_alloc; the input must satisfy the notes above.

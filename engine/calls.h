@@ -26,6 +26,7 @@ void world_destroy(pleat_world*);
 pleat_result world_step(pleat_world*, float);
 pleat_result world_set_gravity(pleat_world*, const float[3]);
 pleat_result world_set_wind(pleat_world*, const float[3]);
+pleat_result world_set_gust(pleat_world*, float, float, uint32_t);
 pleat_result world_stats(const pleat_world*, pleat_stats*);
 pleat_result world_explain(pleat_world*, pleat_text_fn, void*);
 
@@ -55,6 +56,9 @@ pleat_result cloth_read_particles(const pleat_world*, pleat_cloth, float*, float
 pleat_result cloth_write_particles(pleat_world*, pleat_cloth, const float*, const float*, uint32_t);
 pleat_result cloth_read_vertices(const pleat_world*, pleat_cloth, const pleat_vertex_target*);
 pleat_result cloth_read_indices(const pleat_world*, pleat_cloth, uint32_t*, uint32_t);
+
+// fabric_calls.cpp
+pleat_result fabric_apply(uint32_t, pleat_cloth_settings*);
 
 // collider_calls.cpp
 pleat_result collider_def_init(pleat_collider_def*, size_t);

@@ -25,7 +25,8 @@ const pleat_cloth_def& default_cloth() {
                   .friction = 0.2f,
                   .face_response = PLEAT_FACE_RESPONSE_WEIGHTED,
                   .surface = kHasSmoothing ? PLEAT_SURFACE_PLEAT : PLEAT_SURFACE_FLAT,
-                  .level = PLEAT_LEVEL_FAN};
+                  .level = PLEAT_LEVEL_FAN,
+                  .lift_coefficient = 0.0f};
     return d;
   }();
   return def;
@@ -43,6 +44,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("bend_damping", s.bend_damping, 0, 1e6);
   need_range("air_damping", s.air_damping, 0, 1e6);
   need_range("drag_coefficient", s.drag_coefficient, 0, 1e3);
+  need_range("lift_coefficient", s.lift_coefficient, 0, 1e3);
   need_range("thickness", s.thickness, 0, 1);
   need_range("friction", s.friction, 0, 10);
   need_range("face_response", s.face_response, 0, PLEAT_FACE_RESPONSE_WHOLE);

@@ -124,6 +124,17 @@ std::vector<std::array<std::uint32_t, 2>> read_seams(const pleat_garment_def& de
   return seams;
 }
 
+/// Empty where the host gives none.
+std::span<const float> need_masses(const float* masses, std::uint32_t vertex_count) {
+  if (masses == nullptr) return {};
+  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+    if (!(masses[i] >= 0.0f && masses[i] <= 1e3f)) {
+      refuse("added_mass[" + std::to_string(i) + "] is " + text(masses[i]) + ", must be from 0 to 1000");
+    }
+  }
+  return {masses, vertex_count};
+}
+
 void write_report(const MeshReport& from, pleat_mesh_report* to) {
   if (to == nullptr) return;
   *to = {.degenerate_triangles = from.degenerate_triangles,
@@ -212,7 +223,8 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
     write_report(found, report);
     if (!found.fault.empty()) refuse("the mesh cannot be cloth: " + found.fault, PLEAT_ERROR_MESH);
     log_repairs(world, found);
-    const GarmentInput input{positions, triangles, uvs, {def.pins, def.pin_count}, seams};
+    const GarmentInput input{
+        positions, triangles, uvs, {def.pins, def.pin_count}, seams, need_masses(def.added_mass, def.vertex_count)};
     Garment built = build_garment(input, &world.memory);
     if (!seams.empty() &&
         std::find(built.edge_is_seam.begin(), built.edge_is_seam.end(), 1) == built.edge_is_seam.end()) {

@@ -49,6 +49,8 @@ constexpr pleat_api kApi = {
     .collider_move_rigid = call::collider_move_rigid,
     .collider_get = call::collider_get,
     .collider_set = call::collider_set,
+    .world_set_gust = call::world_set_gust,
+    .fabric_apply = call::fabric_apply,
 };
 
 }  // namespace

@@ -99,6 +99,9 @@ typedef struct pleat_world_def {
   void* log_user;
   pleat_stage_fn stage; /* null (default): no call, no clock read */
   void* stage_user;
+  float gust;           /* m/s, how far the air wavers about `wind`: root mean square on each axis; default 0 */
+  float gust_frequency; /* Hz, band limit: at it the wavering is a sixth, beyond it soon nothing; default 2 */
+  uint32_t gust_seed;   /* the same seed blows the same gusts, at any frame rate; default 0 */
 } pleat_world_def;
 
 /* ---- meshes ---------------------------------------------------------------------------------------------------- */
@@ -144,8 +147,9 @@ typedef struct pleat_garment_def {
   uint32_t uv_stride;
   const uint32_t* pins; /* vertices that follow the host (cloth_move_pins), in this order; or null */
   uint32_t pin_count;
-  const uint32_t* seams; /* vertex pairs: edges that are seams; or null */
-  uint32_t seam_count;   /* pairs */
+  const uint32_t* seams;   /* vertex pairs: edges that are seams; or null */
+  uint32_t seam_count;     /* pairs */
+  const float* added_mass; /* kg at each vertex besides the cloth's own: hem weights, buttons, buckles; or null */
 } pleat_garment_def;
 
 typedef struct pleat_garment_info {
@@ -196,7 +200,21 @@ typedef struct pleat_cloth_settings {
   uint32_t face_response; /* default weighted */
   uint32_t surface;       /* default PLEAT_SURFACE_PLEAT */
   uint32_t level;         /* default PLEAT_LEVEL_FAN */
+  float lift_coefficient; /* C_l: what air that passes a face at a slant adds to its drag, normal to it; default 0 */
 } pleat_cloth_settings;
+
+/* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
+ * kg/m2; modulus Y, N/m, and bending B, 1e-6 N m: the middle of the measured range over directions and strains. */
+enum {
+  PLEAT_FABRIC_POLYESTER = 0, /* woven, blouse:    .128  2080   38 */
+  PLEAT_FABRIC_TROUSERS = 1,  /* woven:            .220  2080  168 */
+  PLEAT_FABRIC_DENIM = 2,     /* woven, 11 ounces: .324   630   70 */
+  PLEAT_FABRIC_BLANKET = 3,   /* woven:            .228   220  168 */
+  PLEAT_FABRIC_INTERLOCK = 4, /* knit, T-shirt:    .187   150   23 */
+  PLEAT_FABRIC_PONTE = 5,     /* knit, dress:      .284   120   30 */
+  PLEAT_FABRIC_SWEAT = 6,     /* knit, hoodie:     .224   110   34 */
+  PLEAT_FABRIC_NYLON = 7      /* knit, swimsuit:   .204    86   44 */
+};
 
 typedef struct pleat_cloth_def {
   uint32_t size;
@@ -358,6 +376,12 @@ typedef struct pleat_api {
   /* settings->size says how much of it the caller knows. */
   pleat_result (*collider_get)(const pleat_world* world, pleat_collider collider, pleat_collider_settings* settings);
   pleat_result (*collider_set)(pleat_world* world, pleat_collider collider, const pleat_collider_settings* settings);
+
+  /* See world_def; gusts go on from where they are in time. */
+  pleat_result (*world_set_gust)(pleat_world* world, float gust, float frequency, uint32_t seed);
+  /* Sets density, stiffness and bend_stiffness to a PLEAT_FABRIC_*'s and leaves the rest. They are the material's, not
+   * the mesh's: finer triangles of the same shape hang alike. stiffness is sqrt(3)/2 Y, right for equilateral ones. */
+  pleat_result (*fabric_apply)(uint32_t fabric, pleat_cloth_settings* settings);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

@@ -115,6 +115,7 @@ void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   for (std::uint32_t s = 0; s < n; ++s) {
     t.t0 = static_cast<float>(s) / static_cast<float>(n);
     t.t1 = static_cast<float>(s + 1) / static_cast<float>(n);
+    t.time = world.time + static_cast<double>(dt) * s / n;
     run_substep(t);
   }
   run_phase(t, Phase::kFrameEnd);
@@ -176,6 +177,7 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
       cloth(c),
       garment(c.garment()),
       settings(c.settings),
+      air{w.def.wind[0], w.def.wind[1], w.def.wind[2]},
       position(w.particles.position.view().from(c.particle_begin)),
       velocity(w.particles.velocity.view().from(c.particle_begin)),
       force(w.particles.force.view().from(c.particle_begin)),
@@ -219,6 +221,7 @@ void tick(World& world, float dt) {
   world.stats.particle_contacts = world.stats.face_contacts = 0;
   update_bodies(world);
   for (ClothRecord& cloth : world.clothes) tick_cloth(world, cloth, dt);
+  world.time += static_cast<double>(dt);
   settle_poses(world);
 }
 

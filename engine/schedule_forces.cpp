@@ -5,6 +5,7 @@
 #include "systems/edge_damping.h"
 #include "systems/elastic_force.h"
 #include "systems/gravity.h"
+#include "systems/gust.h"
 #include "systems/hinge_bending.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
@@ -16,6 +17,13 @@ namespace pleat {
 namespace {
 
 bool runge_kutta(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4; }
+
+const char* without_air(const World& w, const ClothRecord& c) {
+  const bool slips = c.settings.drag_coefficient == 0.0f && c.settings.lift_coefficient == 0.0f;
+  return slips                       ? "drag_coefficient and lift_coefficient are 0"
+         : w.def.air_density == 0.0f ? "air_density is 0"
+                                     : kNeeded;
+}
 
 constexpr Row kRows[] = {
     {Phase::kSubstepBegin, "pin_motion",
@@ -90,20 +98,29 @@ constexpr Row kRows[] = {
                       .dt = t.dt,
                       .force = t.force});
      }},
-    {Phase::kStage, "air_drag",
+    {Phase::kStage, "gust",
      [](const World& w, const ClothRecord& c) {
-       return c.settings.drag_coefficient == 0.0f ? "drag_coefficient is 0"
-              : w.def.air_density == 0.0f         ? "air_density is 0"
-                                                  : kNeeded;
+       const char* why = without_air(w, c);
+       return why != nullptr ? why : w.def.gust == 0.0f ? "gust is 0" : kNeeded;
      },
      [](ClothTick& t) {
-       const float* wind = t.world.def.wind;
+       const pleat_world_def& d = t.world.def;
+       run(Gust{.wind = {d.wind[0], d.wind[1], d.wind[2]},
+                .strength = d.gust,
+                .frequency = d.gust_frequency,
+                .seed = d.gust_seed,
+                .time = t.time,
+                .air = &t.air});
+     }},
+    {Phase::kStage, "air_drag", without_air,
+     [](ClothTick& t) {
        run(AirDrag{.garment = &t.garment,
                    .position = t.position,
                    .velocity = t.velocity,
-                   .wind = {wind[0], wind[1], wind[2]},
+                   .wind = t.air,
                    .air_density = t.world.def.air_density,
                    .drag_coefficient = t.settings.drag_coefficient,
+                   .lift_coefficient = t.settings.lift_coefficient,
                    .density = t.settings.density,
                    .dt = t.dt,
                    .force = t.force});

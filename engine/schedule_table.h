@@ -20,6 +20,8 @@ struct ClothTick {
   float dt = 0.0f;             // s, of the present substep
   float t0 = 0.0f, t1 = 1.0f;  // the present substep's begin and end as fractions of the tick
   int stage = 0;               // of the integrator
+  double time = 0.0;           // s, when the present substep begins
+  Vec3 air;                    // m/s, velocity of the air now
 
   Vec3View position, velocity, force, previous, predicted;
   const float* inverse_mass;

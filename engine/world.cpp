@@ -27,7 +27,8 @@ void resize_particles(World& world, std::size_t size) {
 void set_masses(World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   for (std::uint32_t i = 0; i < g.particle_count; ++i) {
-    const float mass = g.particle_area[i] * cloth.settings.density;
+    const float area = g.particle_area[i];  // 0: no face uses the vertex, it stays inert
+    const float mass = area > 0.0f ? area * cloth.settings.density + g.added_mass[i] : 0.0f;
     const std::uint32_t p = cloth.particle_begin + i;
     world.particles.mass[p] = mass;
     world.particles.inverse_mass[p] = g.pinned[i] || mass <= 0.0f ? 0.0f : 1.0f / mass;

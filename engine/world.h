@@ -118,6 +118,7 @@ struct World {
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;
+  double time = 0.0;  // s, of all ticks so far: the gusts' clock
 
   /// A line to the host's log, or to stderr for warnings and errors where it has none.
   void log(std::uint32_t level, const std::string& line) const;

@@ -12,6 +12,7 @@ const pleat_world_def& default_world() {
     d.gravity[1] = -9.81f;
     d.air_density = 1.225f;
     d.max_substep = 1.0f / 480.0f;
+    d.gust_frequency = 2.0f;
     return d;
   }();
   return def;
@@ -20,6 +21,11 @@ const pleat_world_def& default_world() {
 void need_small(const char* name, const float v[3], double most) {
   need_finite(name, v);
   for (int k = 0; k < 3; ++k) need_range(name, v[k], -most, most);
+}
+
+void need_gust(float gust, float frequency) {
+  need_range("gust", gust, 0.0, 1e3);
+  need_range("gust_frequency", frequency, 1e-3, 1e3);
 }
 
 constexpr double kMostGravity = 1e4, kMostWind = 1e4;  // m/s2, m/s
@@ -38,6 +44,7 @@ pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
     need_small("wind", def.wind, kMostWind);
     need_range("air_density", def.air_density, 0.0, 1e4);
     need_range("max_substep", def.max_substep, 1e-5, 1.0);
+    need_gust(def.gust, def.gust_frequency);
     if ((def.allocate == nullptr) != (def.free == nullptr)) refuse("allocate and free must both be given, or neither");
     HostMemory memory(def.allocate, def.free, def.memory_user);
     *world = reinterpret_cast<pleat_world*>(std::pmr::polymorphic_allocator<>(&memory).new_object<World>(def));
@@ -73,6 +80,17 @@ pleat_result world_set_wind(pleat_world* handle, const float wind[3]) {
     World& world = need_world(handle);
     need_small("wind", wind, kMostWind);
     std::copy_n(wind, 3, world.def.wind);
+  });
+}
+
+pleat_result world_set_gust(pleat_world* handle, float gust, float frequency, uint32_t seed) {
+  return guarded(as_world(handle), "world_set_gust", [&] {
+    World& world = need_world(handle);
+    need_gust(gust, frequency);
+    world.def.gust = gust;
+    world.def.gust_frequency = frequency;
+    world.def.gust_seed = seed;
+    replan(world);
   });
 }
 

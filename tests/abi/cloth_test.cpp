@@ -52,6 +52,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"bend_damping", &S::bend_damping},
                                                        {"air_damping", &S::air_damping},
                                                        {"drag_coefficient", &S::drag_coefficient},
+                                                       {"lift_coefficient", &S::lift_coefficient},
                                                        {"thickness", &S::thickness},
                                                        {"friction", &S::friction}};
   for (const auto& [name, field] : floats) {

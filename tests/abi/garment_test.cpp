@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 
@@ -81,6 +82,22 @@ TEST_F(GarmentDef, IndicesAreChecked) {
   bad("pins[1]", [&](auto& d) { d.pins = beyond; });
   bad("pins[1] is 4, a second time", [&](auto& d) { d.pins = twice; });
   bad("seams[0][1]", [&](auto& d) { d.seams = beyond; });
+}
+
+TEST_F(GarmentDef, AddedMassIsChecked) {
+  for (const float value : {kNan, kInfinity, -1e-3f, 1001.0f}) {
+    std::vector<float> masses(9, 0.1f);
+    masses[7] = value;
+    bad("added_mass[7]", [&](auto& d) { d.added_mass = masses.data(); });
+  }
+}
+
+TEST_F(GarmentDef, OlderDefWithoutAddedMassIsTaken) {
+  pleat_garment_def def = square.def();
+  def.size = offsetof(pleat_garment_def, added_mass);
+  def.added_mass = reinterpret_cast<const float*>(8);  // beyond what the older host's struct holds
+  pleat_garment out{};
+  EXPECT_EQ(api().garment_create(world, &def, nullptr, &out), pleat_result{PLEAT_OK});
 }
 
 TEST_F(GarmentDef, MeshThatCannotBeClothIsRefusedWithAReport) {

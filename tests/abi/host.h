@@ -105,7 +105,7 @@ class Host : public testing::Test {
       all.push_back(static_cast<float>(value));
     }
     all.insert(all.end(), {s.density, s.stiffness, s.stretch_limit, s.bend_stiffness, s.edge_damping, s.bend_damping,
-                           s.air_damping, s.drag_coefficient, s.thickness, s.friction});
+                           s.air_damping, s.drag_coefficient, s.lift_coefficient, s.thickness, s.friction});
     return all;
   }
 

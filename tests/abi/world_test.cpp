@@ -42,6 +42,8 @@ TEST(WorldDef, OneBadFieldIsRefusedByName) {
     expect_world_refused("wind", [&](pleat_world_def& d) { d.wind[2] = bad; });
     expect_world_refused("air_density", [&](pleat_world_def& d) { d.air_density = bad; });
     expect_world_refused("max_substep", [&](pleat_world_def& d) { d.max_substep = bad; });
+    expect_world_refused("gust", [&](pleat_world_def& d) { d.gust = bad; });
+    expect_world_refused("gust_frequency", [&](pleat_world_def& d) { d.gust_frequency = bad; });
   }
   expect_world_refused("max_substep", [](pleat_world_def& d) { d.max_substep = 0.0f; });
   expect_world_refused("size", [](pleat_world_def& d) { d.size = 0; });
@@ -96,6 +98,14 @@ TEST_F(Host, GravityAndWindAreChecked) {
   }
   expect_refused(PLEAT_ERROR_ARGUMENT, "gravity", [&] { return api().world_set_gravity(world, nullptr); });
   expect_refused(PLEAT_ERROR_ARGUMENT, "wind", [&] { return api().world_set_wind(world, nullptr); });
+}
+
+TEST_F(Host, GustsAreChecked) {
+  for (const float bad : {kNan, kInfinity, -1.0f, 2e3f}) {
+    expect_refused(PLEAT_ERROR_ARGUMENT, "gust", [&] { return api().world_set_gust(world, bad, 1.0f, 0); });
+    expect_refused(PLEAT_ERROR_ARGUMENT, "gust_frequency", [&] { return api().world_set_gust(world, 1.0f, bad, 0); });
+  }
+  EXPECT_EQ(api().world_set_gust(world, 1.0f, 1.0f, 7), pleat_result{PLEAT_OK});
 }
 
 TEST_F(Host, StatsFillAsMuchAsTheHostKnows) {

@@ -36,7 +36,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
                            "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
-  EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient is 0"));
+  EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient and lift_coefficient are 0"));
   EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: integrates by Euler"));
 
   pleat_cloth_settings s = scene.settings(cloth);

@@ -34,6 +34,27 @@ class Batch {
   }
 };
 
+TEST(World, AddedMassWeighsWhereThereIsCloth) {
+  Scene scene;
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0, -1, 5, 5, 5}, masses[] = {0.5f, 0, 0, 0.5f};
+  const std::uint32_t triangle[] = {0, 1, 2};
+  pleat_garment_def def;
+  must(call::garment_def_init(&def, sizeof def));
+  def.positions = positions, def.vertex_count = 4;
+  def.triangles = triangle, def.triangle_count = 1;
+  def.added_mass = masses;
+  pleat_garment garment{};
+  must(call::garment_create(scene, &def, nullptr, &garment));
+  scene.cloth(garment);
+  const ParticleColumns& p = scene.inside().particles;
+  const float own = Scene::default_settings().density * 0.5f / 3.0f;
+  EXPECT_FLOAT_EQ(p.mass[0], own + 0.5f);
+  EXPECT_FLOAT_EQ(p.mass[1], own);
+  EXPECT_FLOAT_EQ(p.inverse_mass[0], 1.0f / (own + 0.5f));
+  EXPECT_EQ(p.mass[3], 0.0f);  // no triangle uses it: it hangs where it is
+  EXPECT_EQ(p.inverse_mass[3], 0.0f);
+}
+
 /// The ranges of all cloths lie one after the other without a gap.
 void expect_compact(Scene& scene) {
   World& world = scene.inside();

@@ -47,6 +47,8 @@ TEST(AirDrag, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.drag_coefficient = kNan;
   EXPECT_FALSE(bad.validate());
+  bad = good, bad.lift_coefficient = -1.0f;
+  EXPECT_FALSE(bad.validate());
   bad = good, bad.density = 0.0f;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.dt = 0.0f;
@@ -82,6 +84,25 @@ TEST(AirDrag, ActsOnTheNormalPartAndTheWrongSideAlike) {
     EXPECT_NEAR(sum.y, 0.5f * kAir * kDrag * wind * std::abs(wind), 1e-5f);  // of 1 m2
     EXPECT_NEAR(sum.x, 0.0f, 1e-6f);
   }
+}
+
+TEST(AirDrag, LiftIsAcrossTheWindAndWantsASlant) {
+  const auto total = [](const Vec3& wind) {
+    Sheet sheet(make_grid({.rows = 2, .columns = 2}), {}, kDensity);
+    AirDrag lifting = job(sheet, wind);
+    lifting.drag_coefficient = 0.0f;
+    lifting.lift_coefficient = 1.0f;
+    lifting.run();
+    Vec3 sum;
+    for (std::uint32_t i = 0; i < sheet.count; ++i) sum += sheet.force[i];
+    return sum;
+  };
+  EXPECT_NEAR(length(total({0, 5, 0})), 0.0f, 1e-6f);  // face on
+  EXPECT_NEAR(length(total({5, 0, 0})), 0.0f, 1e-6f);  // edge on
+  const float slant = 0.1f, speed = 5.0f;
+  const Vec3 sum = total({speed * std::cos(slant), speed * std::sin(slant), 0});
+  EXPECT_NEAR(sum.y, 0.5f * kAir * speed * speed * std::sin(slant) * (1.0f - std::sin(slant)), 1e-4f);
+  EXPECT_EQ(sum.x, 0.0f);  // air presses, it does not rub
 }
 
 TEST(AirDrag, NoStepTurnsTheMotionAroundWhateverTheWind) {

@@ -70,7 +70,7 @@ const Case kCases[] = {
     {"AirDamping", [](Sheet& s) { AirDamping{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); }, {"force"}},
     {"AirDrag",
      [](Sheet& s) {
-       AirDrag{&s.garment, s.position, s.velocity, {1, 2, 3}, 1.2f, 1.0f, 0.2f, kDt, s.force}.run();
+       AirDrag{&s.garment, s.position, s.velocity, {1, 2, 3}, 1.2f, 1.0f, 0.5f, 0.2f, kDt, s.force}.run();
      },
      {"force"}},
     {"EulerIntegration",
