@@ -136,6 +136,7 @@ std::string stage_group(const std::string& system) {
       {"elastic_force", "forces"},        {"hinge_bending", "forces"},
       {"edge_damping", "forces"},         {"gravity", "forces"},
       {"air_damping", "forces"},          {"air_drag", "forces"},
+      {"inner_friction", "forces"},       {"tether_constraint", "stretch"},
       {"pin_motion", "integration"},      {"euler_integration", "integration"},
       {"finite_guard", "integration"},    {"runge_kutta_integration", "integration"},
       {"velocity_update", "integration"}, {"stretch_constraint", "stretch"},

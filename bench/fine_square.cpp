@@ -36,6 +36,7 @@ pleat_cloth_settings fine_settings(const pleat_api& api) {
   s.edge_damping = 40.0f;
   s.bend_damping = 40.0f;
   s.air_damping = 3.0f;
+  s.inner_friction = 0.0f;
   s.surface = PLEAT_SURFACE_FLAT;
   s.level = 1;
   return s;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/rest_curve.h"
+#include "components/tethers.h"
 
 namespace pleat {
 namespace {
@@ -148,6 +149,9 @@ Garment::Garment(std::pmr::memory_resource* m)
       edge_rest_length(m),
       edge_rest_curve_length(m),
       edge_is_seam(m),
+      tether_particle(m),
+      tether_pin(m),
+      tether_length(m),
       hinge_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m),
                      Column<std::uint32_t>(m)},
       hinge_rest_angle(m),
@@ -161,6 +165,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   add_faces(input, garment);
   add_edges(input, garment);
   add_hinges(garment);
+  measure_tethers(garment);
   measure_rest_curves(garment);
   return garment;
 }

@@ -39,6 +39,13 @@ struct Garment {
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
   Column<std::uint8_t> edge_is_seam;
 
+  /// Edges from the farthest particle to a pin; without pins, half of those between the farthest two of a part.
+  std::uint32_t depth = 0;
+  // Tethers (T): ways along the edges from particles to their nearest two pins, nearest first; see tethers.h. None
+  // where the garment is less than kSweepReach deep.
+  Column<std::uint32_t> tether_particle, tether_pin;
+  Column<float> tether_length;  // m
+
   // Hinges (H), one for each edge between two faces: particles 0 and 1 are the edge, in the winding of face A;
   // 2 is the tip of face A and 3 that of face B.
   Column<std::uint32_t> hinge_particle[4];

@@ -24,6 +24,7 @@ void print_events(const pleat_stats& stats) {
     uint64_t count;
   } events[] = {{"contacts dropped", stats.contacts_dropped},
                 {"edges skipped", stats.edges_skipped},
+                {"bodies faster than substeps", stats.fast_bodies},
                 {"non-finite values put back", stats.nonfinite_restored}};
   for (const auto& [what, count] : events) {
     if (count > 0) std::printf("event         %s: %llu\n", what, static_cast<unsigned long long>(count));

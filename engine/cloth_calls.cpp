@@ -26,7 +26,8 @@ const pleat_cloth_def& default_cloth() {
                   .face_response = PLEAT_FACE_RESPONSE_WEIGHTED,
                   .surface = kHasSmoothing ? PLEAT_SURFACE_PLEAT : PLEAT_SURFACE_FLAT,
                   .level = PLEAT_LEVEL_FAN,
-                  .lift_coefficient = 0.0f};
+                  .lift_coefficient = 0.0f,
+                  .inner_friction = 0.05f};
     return d;
   }();
   return def;
@@ -50,6 +51,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("face_response", s.face_response, 0, PLEAT_FACE_RESPONSE_WHOLE);
   need_range("surface", s.surface, 0, PLEAT_SURFACE_ARC_PN);
   need_range("level", s.level, 0, PLEAT_LEVEL_MAX);
+  need_range("inner_friction", s.inner_friction, 0, 1e6);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 

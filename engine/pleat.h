@@ -185,8 +185,10 @@ enum {
 typedef struct pleat_cloth_settings {
   uint32_t size;
   uint32_t integrator;  /* default symplectic Euler */
-  uint32_t substeps;    /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for; at most 64 */
-  uint32_t sweeps;      /* passes of strain limit and contact in a substep; default 3, 1..64 */
+  uint32_t substeps;    /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for, and more when
+                           a capsule crosses the cloth fast; at most 64 */
+  uint32_t sweeps;      /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
+                           farthest particle; default 3, 1..64 */
   float density;        /* kg/m2; default 0.2 */
   float stiffness;      /* k of eq (1), N/m; default 30. Small on purpose: the strain limit holds the length */
   float stretch_limit;  /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
@@ -201,6 +203,7 @@ typedef struct pleat_cloth_settings {
   uint32_t surface;       /* default PLEAT_SURFACE_PLEAT */
   uint32_t level;         /* default PLEAT_LEVEL_FAN */
   float lift_coefficient; /* C_l: what air that passes a face at a slant adds to its drag, normal to it; default 0 */
+  float inner_friction;   /* how threads that rub slow all motion, m/s2; default 0.05. It ends small swings */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -291,6 +294,8 @@ typedef struct pleat_stats {
   uint64_t nonfinite_restored; /* particles put back because a substep made them non-finite */
   uint64_t allocations;        /* calls of the world's allocator */
   uint64_t bytes, peak_bytes;  /* held through it */
+  uint64_t fast_bodies;        /* ticks of a cloth in which a capsule moved more than half its radius in a substep, so
+                                  that it may have passed through: more substeps were not allowed */
 } pleat_stats;
 
 /* What world_debug_draw shows. */

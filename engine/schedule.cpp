@@ -1,13 +1,16 @@
 #include "engine/schedule.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <string>
 
+#include "components/tethers.h"
 #include "engine/schedule_table.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
+#include "systems/substep_bound.h"
 #endif
 
 namespace pleat {
@@ -96,20 +99,44 @@ void run_substep(ClothTick& t) {
   copy(t.predicted, t.position, n);
   t.world.contact_count = 0;
   run_phase(t, Phase::kContact);
-  for (std::uint32_t sweep = 0; sweep < t.settings.sweeps; ++sweep) run_phase(t, Phase::kSweep);
+  const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
+  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
   run_phase(t, Phase::kSubstepEnd);
 }
 
-std::uint32_t substeps_for(const World& world, const ClothRecord& cloth, float dt) {
-  if (cloth.settings.substeps != 0) return cloth.settings.substeps;
-  // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
-  const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(world.def.max_substep) - 1e-3);
-  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
+/// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
+std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
+#ifdef PLEAT_WITH_COLLISION
+  if (t.world.capsules.size() == 0) return 1;
+  const SubstepBound bound{.particle_count = t.garment.particle_count,
+                           .position = t.position,
+                           .velocity = t.velocity,
+                           .capsules = &t.world.capsules,
+                           .thickness = t.settings.thickness,
+                           .dt = dt};
+  assert(bound.validate());
+  return bound.run();
+#else
+  return 1;
+#endif
+}
+
+std::uint32_t substeps_for(const ClothTick& t, float dt) {
+  const std::uint32_t least = substeps_against_tunnelling(t, dt);
+  std::uint32_t n = t.settings.substeps;
+  if (n == 0) {
+    // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
+    const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(t.world.def.max_substep) - 1e-3);
+    n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
+    n = std::clamp(least, n, kMostSubsteps);
+  }
+  if (n < least) ++t.world.stats.fast_bodies;
+  return n;
 }
 
 void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   ClothTick t(world, cloth);
-  const std::uint32_t n = substeps_for(world, cloth, dt);
+  const std::uint32_t n = substeps_for(t, dt);
   t.dt = dt / static_cast<float>(n);
   world.contact_count = 0;
   for (std::uint32_t s = 0; s < n; ++s) {

@@ -2,6 +2,7 @@
 #include "engine/schedule_row.h"
 #include "systems/finite_guard.h"
 #include "systems/stretch_constraint.h"
+#include "systems/tether_constraint.h"
 #include "systems/velocity_update.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/capsule_detection.h"
@@ -107,6 +108,15 @@ constexpr Row kRows[] = {
                              .limit = t.settings.stretch_limit,
                              .position = t.position},
            t.world.stats);
+     }},
+    {Phase::kSweep, "tether_constraint",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.stretch_limit >= 1.0f        ? "stretch_limit is 1 or more"
+              : c.garment().tether_length.size() == 0 ? "no particle is far from a pin"
+                                                      : kNeeded;
+     },
+     [](ClothTick& t) {
+       run(TetherConstraint{.garment = &t.garment, .limit = t.settings.stretch_limit, .position = t.position});
      }},
 
 #ifdef PLEAT_WITH_COLLISION

@@ -7,6 +7,7 @@
 #include "systems/gravity.h"
 #include "systems/gust.h"
 #include "systems/hinge_bending.h"
+#include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -97,6 +98,18 @@ constexpr Row kRows[] = {
                       .rate = t.settings.air_damping,
                       .dt = t.dt,
                       .force = t.force});
+     }},
+    {Phase::kStage, "inner_friction",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.inner_friction > 0.0f ? kNeeded : "inner_friction is 0";
+     },
+     [](ClothTick& t) {
+       run(InnerFriction{.particle_count = t.garment.particle_count,
+                         .mass = t.mass,
+                         .velocity = t.velocity,
+                         .deceleration = t.settings.inner_friction,
+                         .dt = t.dt,
+                         .force = t.force});
      }},
     {Phase::kStage, "gust",
      [](const World& w, const ClothRecord& c) {

@@ -108,6 +108,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.contacts_dropped = world.stats.contacts_dropped;
     all.edges_skipped = world.stats.edges_skipped;
     all.nonfinite_restored = world.stats.nonfinite_restored;
+    all.fast_bodies = world.stats.fast_bodies;
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();

@@ -37,7 +37,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"friction", &S::friction},
                               {"face_response", &S::face_response, kFaceResponseWords},
                               {"surface", &S::surface, kSurfaceWords},
-                              {"level", &S::level, kLevelWords}};
+                              {"level", &S::level, kLevelWords},
+                              {"inner_friction", &S::inner_friction}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

@@ -54,7 +54,8 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"drag_coefficient", &S::drag_coefficient},
                                                        {"lift_coefficient", &S::lift_coefficient},
                                                        {"thickness", &S::thickness},
-                                                       {"friction", &S::friction}};
+                                                       {"friction", &S::friction},
+                                                       {"inner_friction", &S::inner_friction}};
   for (const auto& [name, field] : floats) {
     for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
   }

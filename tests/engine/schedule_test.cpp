@@ -32,15 +32,17 @@ TEST(Schedule, PhasesOfTheTableNeverGoBack) {
 TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
-  for (const char* name : {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping",
-                           "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
+  for (const char* name :
+       {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
+        "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
   EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient and lift_coefficient are 0"));
+  EXPECT_TRUE(scene.explain("tether_constraint").ends_with("left out: no particle is far from a pin"));
   EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: integrates by Euler"));
 
   pleat_cloth_settings s = scene.settings(cloth);
-  s.stiffness = s.bend_stiffness = s.bend_damping = s.edge_damping = s.air_damping = 0.0f;
+  s.stiffness = s.bend_stiffness = s.bend_damping = s.edge_damping = s.air_damping = s.inner_friction = 0.0f;
   s.stretch_limit = 1.0f;
   s.drag_coefficient = 1.0f;
   s.surface = PLEAT_SURFACE_FLAT;
@@ -49,6 +51,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   EXPECT_TRUE(scene.explain("hinge_bending").ends_with("left out: bend_stiffness is 0"));
   EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
   EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
+  EXPECT_TRUE(scene.explain("inner_friction").ends_with("left out: inner_friction is 0"));
   EXPECT_TRUE(scene.explain("stretch_constraint").ends_with("left out: stretch_limit is 1 or more"));
   EXPECT_TRUE(runs(scene.explain("air_drag")));
 #ifdef PLEAT_WITH_SMOOTHING

@@ -135,7 +135,7 @@ TEST(Step, ClothHangsFromItsPinsAtItsLength) {
 TEST(Step, FreeClothFallsByTheDiscreteLaw) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
-  s.air_damping = 0.0f;
+  s.air_damping = s.inner_friction = 0.0f;
   const pleat_garment sheet = scene.sheet(4);
   const pleat_cloth cloth = scene.cloth(sheet, s);
   const float before = scene.particles(cloth)[3 * 10 + 1];
@@ -159,7 +159,7 @@ TEST(Step, ExtremeSettingsStayFinite) {
       pleat_cloth_settings s = Scene::default_settings();
       s.integrator = integrator;
       s.stiffness = 1e12f;
-      s.bend_stiffness = s.edge_damping = s.bend_damping = s.air_damping = 1e6f;
+      s.bend_stiffness = s.edge_damping = s.bend_damping = s.air_damping = s.inner_friction = 1e6f;
       s.drag_coefficient = 1e3f;
       s.density = 1e-6f;
       s.stretch_limit = limit;

@@ -13,6 +13,7 @@
 #include "systems/finite_guard.h"
 #include "systems/gravity.h"
 #include "systems/hinge_bending.h"
+#include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
 #include "systems/stretch_constraint.h"
@@ -68,6 +69,9 @@ const Case kCases[] = {
      },
      {"force"}},
     {"AirDamping", [](Sheet& s) { AirDamping{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); }, {"force"}},
+    {"InnerFriction",
+     [](Sheet& s) { InnerFriction{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); },
+     {"force"}},
     {"AirDrag",
      [](Sheet& s) {
        AirDrag{&s.garment, s.position, s.velocity, {1, 2, 3}, 1.2f, 1.0f, 0.5f, 0.2f, kDt, s.force}.run();

@@ -1,0 +1,45 @@
+#include "systems/substep_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/box.h"
+
+namespace pleat {
+namespace {
+
+constexpr float kLeastReach = 1e-4f;  // m, of a capsule without radius against a cloth without thickness
+
+}  // namespace
+
+bool SubstepBound::validate() const {
+  return position.x != nullptr && velocity.x != nullptr && capsules != nullptr && thickness >= 0.0f && dt > 0.0f;
+}
+
+std::uint32_t SubstepBound::run() const {
+  Vec3 carried;  // u dt
+  for (std::size_t i = 0; i < particle_count; ++i) carried += velocity[i];
+  carried = carried * (dt / static_cast<float>(std::max<std::size_t>(particle_count, 1)));
+  float own2 = 0.0f;
+  for (std::size_t i = 0; i < particle_count; ++i) {
+    const Vec3 d = velocity[i] * dt - carried;
+    own2 = std::max(own2, dot(d, d));
+  }
+  const float own = std::sqrt(own2);
+  const Box cloth = box_of(position, particle_count).grown(own + length(carried) + thickness);
+
+  const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
+  const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
+  float most = 1.0f;
+  for (std::size_t i = 0; i < capsules->size(); ++i) {
+    if (capsules->enabled[i] == 0) continue;
+    Box swept;
+    for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
+    if (!swept.grown(capsules->radius[i]).overlaps(cloth)) continue;
+    const float motion = std::max(length(a1[i] - a0[i] - carried), length(b1[i] - b0[i] - carried));
+    most = std::max(most, (motion + own) / std::max(0.5f * (capsules->radius[i] + thickness), kLeastReach));
+  }
+  return static_cast<std::uint32_t>(std::ceil(std::min(most, static_cast<float>(kMost))));
+}
+
+}  // namespace pleat

@@ -1,0 +1,27 @@
+// How short substeps have to be for a fast limb not to pass through the cloth.
+#pragma once
+
+#include "components/colliders.h"
+
+namespace pleat {
+
+/// The number of substeps in which no enabled capsule near the cloth moves, relative to the cloth, by more than half of
+/// radius + thickness: within that, contact rows remember the side on which the cloth was. Motion is measured from the
+/// mean velocity u of the cloth, so that a body that carries its cloth along asks for nothing:
+///   n = ceil((max |x1 - x0 - u dt| + max |v_i - u| dt) / ((r + thickness) / 2))
+/// Reads:  position (P) m; velocity (P) m/s; capsules with the poses between which they move in this tick
+/// Cost:   O(P + capsules), no allocation. Errors: none; motion beyond all bounds asks for kMost.
+struct SubstepBound {
+  static constexpr std::uint32_t kMost = 1000000;
+
+  std::size_t particle_count = 0;
+  ConstVec3View position, velocity;
+  const CapsuleColumns* capsules = nullptr;
+  float thickness = 0.0f;  // m
+  float dt = 0.0f;         // s, of the tick
+
+  bool validate() const;
+  std::uint32_t run() const;
+};
+
+}  // namespace pleat
