@@ -248,9 +248,9 @@ typedef struct pleat_vertex_target {
 /* ---- colliders ------------------------------------------------------------------------------------------------- */
 
 enum {
-  PLEAT_COLLIDER_CAPSULE = 0,         /* all points within radius of the segment ab */
-  PLEAT_COLLIDER_MESH = 1,            /* triangles with outward, counter-clockwise faces; vertices may move each frame */
-  PLEAT_COLLIDER_SPHERE = 2,          /* all points within radius of a */
+  PLEAT_COLLIDER_CAPSULE = 0, /* all points within radius of the segment ab */
+  PLEAT_COLLIDER_MESH = 1,    /* triangles with outward, counter-clockwise faces; vertices may move each frame */
+  PLEAT_COLLIDER_SPHERE = 2,  /* all points within radius of a */
   PLEAT_COLLIDER_TAPERED_CAPSULE = 3, /* the hull of a ball of radius about a and one of radius_b about b */
   PLEAT_COLLIDER_PLANE = 4,           /* all points below the plane y = 0 of the body's frame */
   PLEAT_COLLIDER_BOX = 5,             /* all points within half_extents of the origin of the body's frame */
