@@ -39,7 +39,7 @@ struct Garment {
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
   Column<std::uint8_t> edge_is_seam;
 
-  /// Edges from the farthest particle to a pin; without pins, half of those between the farthest two of a part.
+  /// Edges from the farthest particle to a pin; without pins, about half of the way across its first part.
   std::uint32_t depth = 0;
   // Tethers (T): ways along the edges from particles to their nearest two pins, nearest first; see tethers.h. None
   // where the garment is less than kSweepReach deep.

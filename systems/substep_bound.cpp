@@ -35,9 +35,11 @@ std::uint32_t SubstepBound::run() const {
     if (capsules->enabled[i] == 0) continue;
     Box swept;
     for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
-    if (!swept.grown(capsules->radius[i]).overlaps(cloth)) continue;
+    const float radius = capsules->radius[i], taper = capsules->taper[i];
+    if (!swept.grown(radius + std::max(taper, 0.0f)).overlaps(cloth)) continue;
+    const float reach = radius + std::min(taper, 0.0f) + capsules->thickness[i] + thickness;
     const float motion = std::max(length(a1[i] - a0[i] - carried), length(b1[i] - b0[i] - carried));
-    most = std::max(most, (motion + own) / std::max(0.5f * (capsules->radius[i] + thickness), kLeastReach));
+    most = std::max(most, (motion + own) / std::max(0.5f * reach, kLeastReach));
   }
   return static_cast<std::uint32_t>(std::ceil(std::min(most, static_cast<float>(kMost))));
 }

@@ -18,7 +18,8 @@ struct Crossing {
     for (Vec3Column* column : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
       column->resize(1);
     }
-    for (Column<float>* column : {&capsules.radius, &capsules.friction}) column->resize(1);
+    for (Column<float>* column : {&capsules.radius, &capsules.taper, &capsules.thickness, &capsules.friction})
+      column->resize(1);
     capsules.enabled.resize(1);
     capsules.enabled[0] = 1;
     capsules.radius[0] = kRadius;
