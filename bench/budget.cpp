@@ -145,7 +145,8 @@ std::string stage_group(const std::string& system) {
       {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
       {"contact_velocity", "collision"},  {"collision_last_word", "collision"},
       {"surface_footprint", "clearance"}, {"surface_capsules", "clearance"},
-      {"surface_clearance", "clearance"}, {"particle_normals", "normals"}};
+      {"surface_clearance", "clearance"}, {"particle_normals", "normals"},
+      {"mesh_candidates", "collision"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

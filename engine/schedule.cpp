@@ -17,9 +17,11 @@ namespace pleat {
 namespace {
 
 constexpr std::uint32_t kMostSubsteps = 64;
-constexpr std::size_t kMostCapsulesPerCloth = 1024;  // near one cloth at a time
-constexpr std::size_t kContactsPerParticle = 16;     // room for rows; what does not fit is counted
-constexpr std::size_t kMostClearancePlanes = 4096;   // settled together; more are settled in turn
+constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
+constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
+constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
+constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
+constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
 
 Plan plan_of(const World& world, const ClothRecord& cloth) {
   Plan plan = 0;
@@ -60,6 +62,11 @@ void make_room(World& world, const ClothRecord& cloth) {
     at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
     at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
     at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
+    if (!world.meshes.empty()) {
+      at_least(world.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
+      at_least(world.mesh_candidates.anchor, g.particle_count);
+      at_least(world.mesh_candidates.drift, g.particle_count);
+    }
     if (const TessellationPattern* pattern = cloth.pattern();
         pattern != nullptr && world.capsules.size() + world.planes.size() != 0) {
       if (world.footprint.size() < pattern->vertex_count) world.footprint.resize(pattern->vertex_count);

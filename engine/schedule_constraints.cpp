@@ -11,6 +11,7 @@
 #include "systems/collision_response.h"
 #include "systems/contact_friction.h"
 #include "systems/contact_row.h"
+#include "systems/mesh_candidates.h"
 #include "systems/mesh_detection.h"
 #include "systems/plane_detection.h"
 #endif
@@ -79,6 +80,22 @@ constexpr Row kRows[] = {
                           .contacts = contacts_of(t)},
            w.stats);
      }},
+    {Phase::kContact, "mesh_candidates", with_meshes,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(MeshCandidates{.garment = &t.garment,
+                          .position = t.position,
+                          .previous = t.previous,
+                          .velocity = t.velocity,
+                          .inverse_mass = t.inverse_mass,
+                          .bodies = w.bodies.get(),
+                          .meshes = w.mesh_pointers.data(),
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .thickness = t.settings.thickness,
+                          .dt = t.dt,
+                          .candidates = &w.mesh_candidates});
+     }},
     {Phase::kContact, "mesh_detection", with_meshes,
      [](ClothTick& t) {
        World& w = t.world;
@@ -88,6 +105,7 @@ constexpr Row kRows[] = {
                          .inverse_mass = t.inverse_mass,
                          .bodies = w.bodies.get(),
                          .meshes = w.mesh_pointers.data(),
+                         .candidates = &w.mesh_candidates,
                          .t0 = t.t0,
                          .t1 = t.t1,
                          .thickness = t.settings.thickness,

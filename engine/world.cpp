@@ -96,6 +96,7 @@ World::World(const pleat_world_def& definition)
       mesh_pointers(&memory),
       capsule_poses(&memory),
       contacts(&memory),
+      mesh_candidates(&memory),
       detection_scratch(&memory),
       footprint(&memory),
       clearance_planes(&memory) {}

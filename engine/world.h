@@ -14,6 +14,7 @@
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/garment.h"
+#include "components/mesh_candidates.h"
 #include "components/particles.h"
 #include "components/stats.h"
 #include "components/surface.h"
@@ -111,6 +112,7 @@ struct World {
   // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until there is a collider.
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
+  MeshCandidateColumns mesh_candidates;
   Column<float> detection_scratch;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;

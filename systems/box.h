@@ -15,6 +15,11 @@ struct Box {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  Box with(Box b) const {
+    b.include(low);
+    b.include(high);
+    return b;
+  }
   Box grown(float by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   bool overlaps(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&

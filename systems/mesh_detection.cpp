@@ -38,72 +38,78 @@ struct MeshTest {
   float friction = pose.mesh.friction;
   float thickness = in.thickness + pose.mesh.thickness;
   float reach = thickness + margin;
-  // Particles that start deep are looked for once a tick only.
-  float search = in.t0 == 0.0f ? std::max(reach, pose.mesh.depth) : reach;
+  float search = mesh_search(pose.mesh, reach, in.t0);
 
+  /// All triangles near the face.
   void test_face(std::uint32_t face, std::size_t mesh) const {
-    Face f;
     Box box;
-    for (int k = 0; k < 3; ++k) {
-      const std::size_t c = static_cast<std::size_t>(k);
-      f.particle[c] = in.garment->face_particle[c][face];
-      f.x[c] = in.position[f.particle[c]];
-      f.nearest[c].distance2 = search * search;
-      f.owns_particle[c] = in.garment->faces_around[in.garment->around_begin[f.particle[c]]] == face &&
-                           in.inverse_mass[f.particle[c]] > 0.0f;
-      f.owns_edge[c] = in.garment->edge_face[0][in.garment->face_edge[c][face]] == face;
-      box.include(f.x[c]);
-    }
+    for (const auto& particle : in.garment->face_particle) box.include(in.position[particle[face]]);
     box = box.grown(search);
     if (!box.overlaps(in.bodies->swept_box(mesh))) return;
-    const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
-    f.area = cross(u, v);
-    f.area2 = dot(f.area, f.area);
-    f.normal = normalized_or(f.area, Vec3{});
-    for (std::size_t c = 0; c < 3; ++c) {
-      f.outward[c] = normalized_or(cross(f.x[(c + 1) % 3] - f.x[c], f.normal), Vec3{});
-    }
-    in.bodies->for_each_triangle(mesh, box, [&](std::uint32_t t) { meet(f, t); });
-    for (std::size_t c = 0; c < 3; ++c) add_particle_row(f, c);
-    for (std::size_t k = 0; k < f.standing_count; ++k) add_face_row(f, f.standing[k]);
+    Face f = measure(face);
+    const std::uint32_t own = features_of_face(*in.garment, in.inverse_mass, face);
+    in.bodies->for_each_triangle(mesh, box,
+                                 [&](std::uint32_t t) { meet(f, t, own & features_of_body(pose.topology, t)); });
+    add_rows(f);
+  }
+
+  /// The candidates of one face.
+  void test_candidates(const MeshCandidate* begin, const MeshCandidate* end) const {
+    Face f = measure(begin->face);
+    for (const MeshCandidate* pair = begin; pair != end; ++pair) meet(f, pair->triangle, pair->features);
+    add_rows(f);
   }
 
  private:
   struct Face {
     std::uint32_t particle[3] = {};
     Vec3 x[3];
-    bool owns_particle[3] = {}, owns_edge[3] = {};
     Vec3 area, normal;
-    Vec3 outward[3];  // in the face's plane, away from it over edge c
     float area2 = 0.0f;
     std::array<Nearest, 3> nearest;
     std::array<Standing, kRowsPerFace> standing;
     std::size_t standing_count = 0;
   };
 
-  void meet(Face& f, std::uint32_t t) const {
+  Face measure(std::uint32_t face) const {
+    Face f;
+    for (std::size_t c = 0; c < 3; ++c) {
+      f.particle[c] = in.garment->face_particle[c][face];
+      f.x[c] = in.position[f.particle[c]];
+      f.nearest[c].distance2 = search * search;
+    }
+    const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
+    f.area = cross(u, v);
+    f.area2 = dot(f.area, f.area);
+    f.normal = normalized_or(f.area, Vec3{});
+    return f;
+  }
+
+  void add_rows(const Face& f) const {
+    for (std::size_t c = 0; c < 3; ++c) add_particle_row(f, c);
+    for (std::size_t k = 0; k < f.standing_count; ++k) add_face_row(f, f.standing[k]);
+  }
+
+  /// Measures what of the features lies within reach.
+  void meet(Face& f, std::uint32_t t, std::uint32_t features) const {
     const MeshPose::Corners body = pose.corners(t);
-    const auto extent = [&body](const Vec3& axis, const Vec3& from) {
-      const float a = dot(body.a - from, axis), b = dot(body.b - from, axis), c = dot(body.c - from, axis);
-      return std::pair(std::min(std::min(a, b), c), std::max(std::max(a, b), c));
-    };
-    const auto [low, high] = extent(f.normal, f.x[0]);
-    if (low > search || high < -search) return;
-    bool near_edge[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto [least, most] = extent(f.outward[c], f.x[c]);
-      if (least > search) return;
-      near_edge[c] = f.owns_edge[c] && least < reach && most > -reach;
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (f.owns_particle[c]) find_nearest(f.x[c], t, body, f.nearest[c]);
-    }
-    if (low > reach || high < -reach) return;
-    for (int k = 0; k < 3; ++k) {
-      if (pose.topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k]);
-      if (!pose.topology.owns_edge(t, k)) continue;
-      for (int c = 0; c < 3; ++c) {
-        if (near_edge[c]) test_edges(f, c, t, body, k);
+    const float a = dot(body.a - f.x[0], f.normal), b = dot(body.b - f.x[0], f.normal),
+                c = dot(body.c - f.x[0], f.normal);
+    const float height = std::max(std::min(std::min(a, b), c), -std::max(std::max(a, b), c));
+    if (height > search) return;
+    if (height > reach) features &= MeshCandidate::kParticles;
+    for (; features != 0; features &= features - 1) {
+      const MeshCandidate::Feature feature = MeshCandidate::first(features);
+      switch (feature.kind) {
+        case MeshCandidate::Kind::kParticle:
+          find_nearest(f.x[feature.of_face], t, body, f.nearest[feature.of_face]);
+          break;
+        case MeshCandidate::Kind::kVertex:
+          test_vertex(f, pose.corner(t, feature.of_body), body[feature.of_body]);
+          break;
+        case MeshCandidate::Kind::kEdges:
+          test_edges(f, feature.of_face, t, body, feature.of_body);
+          break;
       }
     }
   }
@@ -168,12 +174,18 @@ struct MeshTest {
              stats);
   }
 
-  /// Edge c of the face against edge k of triangle t. They matter where, seen along their common normal, they cross;
+  /// Edge i of the face against edge k of triangle t. They matter where, seen along their common normal, they cross;
   /// elsewhere an end of one is nearer and has a test of its own.
-  void test_edges(const Face& f, int c, std::uint32_t t, const MeshPose::Corners& body, int k) const {
-    const std::size_t i = static_cast<std::size_t>(c), j = (i + 1) % 3;
+  void test_edges(const Face& f, std::size_t i, std::uint32_t t, const MeshPose::Corners& body, int k) const {
+    const std::size_t j = (i + 1) % 3;
     const Vec3 a = body[k], b = body[(k + 1) % 3], along = b - a;
-    const Vec3 edge = f.x[j] - f.x[i], between = a - f.x[i], common = cross(edge, along);
+    const Vec3 edge = f.x[j] - f.x[i], between = a - f.x[i];
+    // Most pairs do not cross. Dot products tell so for half the price, if with less certainty: what is near is left.
+    const float ee = dot(edge, edge), aa = dot(along, along), ea = dot(edge, along), be = dot(between, edge),
+                ba = dot(between, along), all = ee * aa, doubt = 1e-3f * all, most = all - ea * ea + doubt;
+    const float s_all = be * aa - ba * ea, r_all = be * ea - ba * ee;
+    if (s_all < -doubt || s_all > most || r_all < -doubt || r_all > most) return;
+    const Vec3 common = cross(edge, along);
     const float common2 = dot(common, common), gap = dot(between, common);
     if (gap * gap >= reach * reach * common2) return;
     const float s = dot(cross(between, along), common), r = dot(cross(between, edge), common);
@@ -209,11 +221,20 @@ void MeshDetection::run(Stats& stats) const {
   const Box cloth = box_of(position, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   const std::uint32_t first = *contacts.count;
-  for (std::size_t m = 0; m < bodies->mesh_count(); ++m) {
-    const float search = std::max(thickness + meshes[m]->thickness + margin, meshes[m]->depth);
-    if (!meshes[m]->enabled || !cloth.grown(search).overlaps(bodies->swept_box(m))) continue;
+  const bool among = candidates != nullptr && candidates->complete;
+  const MeshCandidate* next = among ? candidates->pairs.data() : nullptr;
+  const MeshCandidate* const end = among ? next + candidates->count : nullptr;
+  for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
+    if (among ? next == end || next->mesh != m : !meshes[m]->enabled) continue;
     const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, margin, stats};
-    for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
+    if (among) {
+      for (const MeshCandidate* begin = next; next != end && next->mesh == m; begin = next) {
+        while (next != end && next->face == begin->face && next->mesh == m) ++next;
+        test.test_candidates(begin, next);
+      }
+    } else if (cloth.grown(test.search).overlaps(bodies->swept_box(m))) {
+      for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
+    }
   }
   // A particle is pushed best by its own row; an edge's row first would overshoot at one end.
   std::partition(contacts.rows + first, contacts.rows + *contacts.count,

@@ -4,6 +4,7 @@
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/garment.h"
+#include "components/mesh_candidates.h"
 #include "components/stats.h"
 #include "systems/collision_bodies.h"
 
@@ -17,7 +18,8 @@ namespace pleat {
 /// Both latter tests leave out what another row says already, so that rows stay few on smooth bodies.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; meshes and their trees
 /// Writes: contacts, added to; stats.contacts_dropped
-/// Cost:   O(F log T + close pairs), no allocation. Errors: none; features without extent make finite rows or none.
+/// Cost:   O(candidates), without them O(F log T + close pairs); no allocation. Errors: none; features without extent
+/// make finite rows or none.
 struct MeshDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
@@ -25,6 +27,8 @@ struct MeshDetection {
   const float* inverse_mass = nullptr;
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
+  const MeshCandidateColumns* candidates =
+      nullptr;  // null or incomplete: the trees are asked instead, rows are the same
   float t0 = 0.0f, t1 = 1.0f;
   float thickness = 0.0f;  // m
   float friction = 0.0f;

@@ -1,11 +1,42 @@
 // The shape of a mesh body at one moment of a tick.
 #pragma once
 
+#include "components/garment.h"
+#include "components/mesh_candidates.h"
 #include "systems/body_topology.h"
 #include "systems/box.h"
 #include "systems/closest_points.h"
 
 namespace pleat {
+
+/// How far from a particle to look for a body, m. Ones that start deep are looked for in a tick's first substep only.
+inline float mesh_search(const MeshCollider& mesh, float reach, float t0) {
+  return t0 == 0.0f ? std::max(reach, mesh.depth) : reach;
+}
+
+/// The features that are measured as part of this face or of this triangle: each is of one of those around it only, and
+/// pinned particles are of none.
+inline std::uint32_t features_of_face(const Garment& garment, const float* inverse_mass, std::uint32_t face) {
+  std::uint32_t own = MeshCandidate::vertex(0) | MeshCandidate::vertex(1) | MeshCandidate::vertex(2);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint32_t i = garment.face_particle[c][face];
+    if (garment.faces_around[garment.around_begin[i]] == face && inverse_mass[i] > 0.0f) {
+      own |= MeshCandidate::particle(c);
+    }
+    if (garment.edge_face[0][garment.face_edge[c][face]] != face) continue;
+    for (int k = 0; k < 3; ++k) own |= MeshCandidate::edges(c, k);
+  }
+  return own;
+}
+inline std::uint32_t features_of_body(const BodyTopology& topology, std::uint32_t triangle) {
+  std::uint32_t own = MeshCandidate::kParticles;
+  for (int k = 0; k < 3; ++k) {
+    if (topology.owns_corner(triangle, k)) own |= MeshCandidate::vertex(k);
+    if (!topology.owns_edge(triangle, k)) continue;
+    for (std::size_t c = 0; c < 3; ++c) own |= MeshCandidate::edges(c, k);
+  }
+  return own;
+}
 
 struct MeshPose {
   const MeshCollider& mesh;

@@ -6,6 +6,7 @@
 
 #include "systems/closest_points.h"
 #include "systems/collision_response.h"
+#include "systems/mesh_candidates.h"
 #include "tests/systems/contact_scene.h"
 
 namespace pleat::test {
@@ -29,6 +30,7 @@ struct Body {
             cloth.inverse_mass.data(),
             &bodies,
             &pointer,
+            nullptr,
             t0,
             t1,
             kThickness,
@@ -181,6 +183,80 @@ TEST(MeshDetection, DisabledBodiesAreNotMet) {
   bad = system;
   bad.t1 = 1.5f;
   EXPECT_FALSE(bad.validate());
+}
+
+/// Through a tick of several substeps, while cloth and body move as they like: the rows found among the candidates are
+/// those found by asking the tree, one by one.
+TEST(MeshDetection, CandidatesGiveTheRowsOfTheTree) {
+  constexpr int kSubsteps = 10;
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const float u = static_cast<float>(i % 8) / 7.0f, v = static_cast<float>(i / 8) / 7.0f;
+    x.push_back({0.5f * u - 0.25f, 0.31f + 0.02f * any(random), 0.5f * v - 0.25f});
+    if (i % 8 == 7 || i >= 56) continue;
+    triangles.push_back({i, i + 8, i + 1});
+    triangles.push_back({i + 1, i + 8, i + 9});
+  }
+  std::size_t rows = 0, gathered = 0, kept = 0;
+  for (int tick = 0; tick < 30; ++tick) {
+    Body body(icosphere(3, 0.3f));
+    const Vec3 shift = Vec3{any(random), any(random), any(random)} * 0.08f;
+    for (std::size_t i = 0; i < body.mesh.next.size(); ++i) {
+      body.mesh.next.view().add(i,
+                                shift + body.mesh.next.view()[i] * (0.2f * any(random) * static_cast<float>(tick % 2)));
+    }
+    body.bodies.update_mesh(0, body.mesh);
+    ContactCloth cloth(x, triangles);
+    MeshCandidateColumns candidates(memory());
+    candidates.pairs.resize(tick == 7 ? 5 : 20000);  // in one of them there is no room
+    candidates.anchor.resize(cloth.garment.particle_count);
+    candidates.drift.resize(cloth.garment.particle_count);
+    const float wild = tick % 3 == 2 ? 0.02f : 0.001f;  // m a substep off the predicted path
+    for (int s = 0; s < kSubsteps; ++s) {
+      const float t0 = static_cast<float>(s) / kSubsteps, t1 = static_cast<float>(s + 1) / kSubsteps;
+      for (std::uint32_t i = 0; i < cloth.garment.particle_count; ++i) {
+        const Vec3 step = shift * (1.1f / kSubsteps);
+        cloth.velocity.view().set(i, step * (1.0f / kDt));
+        cloth.put(i, cloth.x(i) + step + Vec3{any(random), any(random), any(random)} * wild, cloth.x(i));
+      }
+      const std::uint32_t before = candidates.count;
+      const float anchored = candidates.t_anchor;
+      MeshCandidates{&cloth.garment,
+                     cloth.position.view(),
+                     cloth.previous.view(),
+                     cloth.velocity.view(),
+                     cloth.inverse_mass.data(),
+                     &body.bodies,
+                     &body.pointer,
+                     t0,
+                     t1,
+                     kThickness,
+                     kDt,
+                     &candidates}
+          .run();
+      EXPECT_EQ(candidates.complete, tick != 7);
+      ++(candidates.t_anchor != anchored || candidates.count != before ? gathered : kept);
+      Stats stats;
+      MeshDetection among = body.detection(cloth, t0, t1);
+      among.candidates = &candidates;
+      among.run(stats);
+      const std::vector<ContactRow> found(cloth.rows.begin(), cloth.rows.begin() + cloth.row_count);
+      body.detection(cloth, t0, t1).run(stats);
+      ASSERT_EQ(found.size(), cloth.row_count) << "tick " << tick << " substep " << s;
+      rows += found.size();
+      for (std::size_t r = 0; r < found.size(); ++r) {
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(found[r].particle[k], cloth.rows[r].particle[k]);
+        EXPECT_EQ(found[r].normal, cloth.rows[r].normal);
+        EXPECT_EQ(found[r].offset, cloth.rows[r].offset);
+      }
+    }
+  }
+  EXPECT_GT(rows, 5000u);
+  EXPECT_GT(gathered, 60u);
+  EXPECT_GT(kept, 100u);
 }
 
 }  // namespace
