@@ -86,6 +86,11 @@ Frame View::bodies(const Scene& scene) const {
     const auto* capsule = std::get_if<CapsulePose>(&body.shape);
     if (capsule) frame.capsules.push_back(capsule_at(*capsule, Eigen::Vector3f::Zero()));
   }
+  if (!scene.body().vertices.empty()) {
+    Mesh mesh = flat_mesh(scene.body().vertices, scene.def().body.triangles);
+    mesh.front = mesh.back = kBody;
+    frame.meshes.push_back(std::move(mesh));
+  }
   for (const Eigen::Vector3d& origin : scene.def().origins) {
     for (const CapsulePose& capsule : scene.body().capsules) {
       frame.capsules.push_back(capsule_at(capsule, origin.cast<float>()));

@@ -44,6 +44,12 @@ Bodies SceneQuality::bodies_of(const Scene& scene, size_t copy) const {
   for (size_t part = 0; part < body.touching; ++part) {
     bodies.capsules.push_back(exact(body.capsules[part], scene.def().origins[copy]));
   }
+  if (!body.vertices.empty()) {
+    std::vector<float> vertices = body.vertices;
+    const Eigen::Vector3f origin = scene.def().origins[copy].cast<float>();
+    for (size_t i = 0; i < vertices.size(); ++i) vertices[i] += origin[Eigen::Index(i % 3)];
+    bodies.meshes.push_back(std::make_shared<SolidMesh>(vertices, scene.def().body.triangles));
+  }
   return bodies;
 }
 

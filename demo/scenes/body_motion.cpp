@@ -58,7 +58,24 @@ BodyMotion make_kick(double thigh, double knee) {
 BodyMotion make_clip_motion(Clip clip, Figure figure) {
   return [clip = std::move(clip), figure = std::move(figure)](double seconds) {
     const Pose pose = seconds < 0.0 ? pose_to_first_frame(clip, step_in(seconds)) : pose_at(clip, seconds);
-    return BodyPose{hips_at(figure, pose), capsules_at(figure, pose), figure.first_arm};
+    return BodyPose{hips_at(figure, pose), capsules_at(figure, pose), figure.first_arm, {}};
+  };
+}
+
+BodyMotion make_sequence_motion(PointCache cache, double rate, std::vector<uint32_t> hips) {
+  const auto hips_of = [hips = std::move(hips)](const std::vector<float>& vertices) {
+    Eigen::Matrix3Xd places(3, Eigen::Index(hips.size()));
+    for (size_t i = 0; i < hips.size(); ++i) {
+      places.col(Eigen::Index(i)) = Eigen::Map<const Eigen::Vector3f>(vertices.data() + 3 * hips[i]).cast<double>();
+    }
+    return places;
+  };
+  const Eigen::Matrix3Xd first = hips_of(cache.at(0.0));
+  return [cache = std::move(cache), rate, hips_of, first](double seconds) {
+    BodyPose pose;
+    pose.vertices = cache.at(seconds * rate);
+    pose.hips = Eigen::Isometry3d(Eigen::umeyama(first, hips_of(pose.vertices), false));
+    return pose;
   };
 }
 

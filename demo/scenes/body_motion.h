@@ -6,6 +6,7 @@
 
 #include "demo/motion/clip.h"
 #include "demo/motion/figure.h"
+#include "demo/motion/point_cache.h"
 
 namespace pleat::demo {
 
@@ -14,6 +15,7 @@ struct BodyPose {
   Eigen::Isometry3d hips = Eigen::Isometry3d::Identity();  ///< from the hips frame to the world; pins follow it
   std::vector<CapsulePose> capsules;                       ///< always as many, in the same order
   std::size_t touching = 0;                                ///< the first so many are colliders, the others only shown
+  std::vector<float> vertices;                             ///< (V,3) m, of a mesh body; empty where there is none
 };
 
 /// A body's pose as a function of time in seconds; before 0 it gets ready.
@@ -29,5 +31,10 @@ BodyMotion make_kick(double thigh, double knee);
 /// half a second and holds it. After the last frame it holds still. The arms are only shown: recorded hands swing
 /// through the hips of a fitted figure and would nail a skirt to them.
 BodyMotion make_clip_motion(Clip clip, Figure figure);
+
+/// A mesh body that goes through `cache`, `rate` samples a second; before the first sample it stands as in that one,
+/// after the last as in the last. Its hips move as the vertices `hips` do on the whole: the rigid motion that fits them
+/// best (S. Umeyama, 1991). At 0 s the hips frame is the world's.
+BodyMotion make_sequence_motion(PointCache cache, double rate, std::vector<uint32_t> hips);
 
 }  // namespace pleat::demo

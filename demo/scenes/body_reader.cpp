@@ -39,6 +39,33 @@ MotionDef read_clip(const JsonValue& value, const SceneFile& file) {
   return play(std::move(clip), first_frame, settle ? settle->number(0.0, 60.0) : kSettle);
 }
 
+/// A mesh and where its vertices go. The hips are all vertices in a box, in the first sample.
+MotionDef read_sequence(const JsonValue& sequence, const SceneFile& file) {
+  sequence.allow_keys({"obj", "points", "rate", "hips", "settle"});
+  MotionDef def;
+  def.body = read_mesh_file(sequence.at("obj"), file);
+  const std::string points = sequence.at("points").text();
+  PointCache cache = read_point_cache(*file.open(points), file.path_of(points));
+  if (cache.points != def.body.vertex_count()) {
+    sequence.at("points").fail("holds " + std::to_string(cache.points) + " points, the mesh has " +
+                               std::to_string(def.body.vertex_count()) + " vertices");
+  }
+  const double rate = sequence.at("rate").number(1.0, 1000.0);
+  sequence.at("hips").allow_keys({"low", "high"});
+  const Eigen::Vector3f low = read_point(sequence.at("hips").at("low")),
+                        high = read_point(sequence.at("hips").at("high"));
+  std::vector<uint32_t> hips;
+  for (uint32_t v = 0; v < cache.points; ++v) {
+    const Eigen::Array3f p = Eigen::Map<const Eigen::Array3f>(cache.positions.data() + 3 * v);
+    if ((p >= low.array()).all() && (p <= high.array()).all()) hips.push_back(v);
+  }
+  if (hips.size() < 3) sequence.at("hips").fail("holds fewer than 3 vertices of the body");
+  def.duration = double(cache.samples - 1) / rate;
+  if (const auto settle = sequence.find("settle")) def.settle = settle->number(0.0, 60.0);
+  def.motion = make_sequence_motion(std::move(cache), rate, std::move(hips));
+  return def;
+}
+
 }  // namespace
 
 FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
@@ -64,11 +91,12 @@ FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
 }
 
 MotionDef read_motion(const JsonValue& motion, const SceneFile& file, const std::string& other_clip) {
-  motion.allow_keys({"kick", "clip"});
-  const std::string kind = motion.one_of({"kick", "clip"});
+  motion.allow_keys({"kick", "clip", "sequence"});
+  const std::string kind = motion.one_of({"kick", "clip", "sequence"});
   if (!other_clip.empty()) return play(load_bvh(other_clip), std::nullopt, kSettle);
   const JsonValue value = motion.at(kind);
   if (kind == "clip") return read_clip(value, file);
+  if (kind == "sequence") return read_sequence(value, file);
   value.allow_keys({"thigh", "knee"});
   MotionDef def;
   def.motion = make_kick(value.at("thigh").number(-180.0, 180.0), value.at("knee").number(-180.0, 180.0));

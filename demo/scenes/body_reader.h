@@ -16,6 +16,7 @@ FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file);
 /// A scene's `motion`, and what a recorded clip tells about the rest of the scene.
 struct MotionDef {
   BodyMotion motion;
+  TriangleMesh body;               ///< that moves, if its body is a mesh
   double settle = 0.0;             ///< s of `motion` before frame 0
   std::optional<Figure> figure;    ///< of a clip
   std::optional<double> duration;  ///< of a clip, s

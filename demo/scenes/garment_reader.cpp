@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "demo/scenes/coarsen.h"
 #include "demo/scenes/obj.h"
 
 namespace pleat::demo {
@@ -153,7 +154,7 @@ std::vector<uint32_t> read_pins(const JsonValue& pins, const TriangleMesh& mesh,
 }  // namespace
 
 TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
-  value.allow_keys({"file", "scale", "up", "move"});
+  value.allow_keys({"file", "scale", "up", "move", "vertices"});
   const std::string name = value.at("file").text();
   const double scale = value.find("scale") ? value.at("scale").number(1e-6, 1e6) : 1.0;
   const Vector3d move = value.find("move") ? value.at("move").vector() : Vector3d::Zero();
@@ -163,7 +164,8 @@ TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
   transform(mesh, [&](const Vector3d& p) -> Vector3d {
     return scale * (up == "z" ? Vector3d(p.x(), p.z(), -p.y()) : p) + move;
   });
-  return mesh;
+  const auto vertices = value.find("vertices");
+  return vertices ? coarsen(mesh, vertices->integer(3, PLEAT_MAX_PARTICLES)) : mesh;
 }
 
 Garment read_garment(const JsonValue& value, const SceneFile& file, const pleat_api& api, const Wearer* wearer) {

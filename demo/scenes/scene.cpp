@@ -93,6 +93,10 @@ void Scene::create_copies() {
     for (size_t part = 0; part < body_.touching; ++part) {
       body_parts_.push_back(create_capsule(body_.capsules[part], origin.cast<float>(), 1.0f));
     }
+    if (def_.body.positions.empty()) continue;
+    TriangleMesh body = def_.body;
+    move_points(def_.body.positions, origin, body.positions);
+    meshes_.push_back(create_mesh(body, 1.0f));
   }
 }
 
@@ -115,18 +119,22 @@ void Scene::create_fixed_bodies() {
       create_capsule(*capsule, Eigen::Vector3f::Zero(), body.friction);
       continue;
     }
-    const auto& mesh = std::get<TriangleMesh>(body.shape);
-    pleat_collider_def def;
-    api_.collider_def_init(&def, sizeof def);
-    def.shape = PLEAT_COLLIDER_MESH;
-    def.positions = mesh.positions.data();
-    def.vertex_count = uint32_t(mesh.vertex_count());
-    def.triangles = mesh.triangles.data();
-    def.triangle_count = uint32_t(mesh.triangle_count());
-    def.friction = body.friction;
-    pleat_collider collider;
-    check(api_.collider_create(world_, &def, &collider), "collider");
+    create_mesh(std::get<TriangleMesh>(body.shape), body.friction);
   }
+}
+
+pleat_collider Scene::create_mesh(const TriangleMesh& mesh, float friction) {
+  pleat_collider_def def;
+  api_.collider_def_init(&def, sizeof def);
+  def.shape = PLEAT_COLLIDER_MESH;
+  def.positions = mesh.positions.data();
+  def.vertex_count = uint32_t(mesh.vertex_count());
+  def.triangles = mesh.triangles.data();
+  def.triangle_count = uint32_t(mesh.triangle_count());
+  def.friction = friction;
+  pleat_collider collider;
+  check(api_.collider_create(world_, &def, &collider), "collider");
+  return collider;
 }
 
 /// Pins keep their place in the hips frame.
@@ -159,6 +167,10 @@ void Scene::step() {
       const Eigen::Vector3f a = body_.capsules[part].a + origin, b = body_.capsules[part].b + origin;
       check(api_.collider_move_capsule(world_, body_parts_[k * parts + part], a.data(), b.data()), "collider");
     }
+    if (meshes_.empty()) continue;
+    move_points(body_.vertices, def_.origins[k], moved_);
+    check(api_.collider_move_mesh(world_, meshes_[k], moved_.data(), 0, uint32_t(def_.body.vertex_count())),
+          "collider");
   }
   check(api_.world_step(world_, float(1.0 / def_.rate)), "step");
 }

@@ -47,6 +47,7 @@ class Scene {
   void create_copies();
   void create_fixed_bodies();
   pleat_collider create_capsule(const CapsulePose& capsule, const Eigen::Vector3f& origin, float friction);
+  pleat_collider create_mesh(const TriangleMesh& mesh, float friction);
   void place_pins();
   static void keep_log(uint32_t level, const char* line, void* user);
 
@@ -55,6 +56,7 @@ class Scene {
   pleat_world* world_ = nullptr;
   pleat_garment garment_{};
   std::vector<pleat_cloth> cloths_;         // one a copy
+  std::vector<pleat_collider> meshes_;      // a copy each, where the body is a mesh
   std::vector<pleat_collider> body_parts_;  // copy by copy, in BodyPose's order
   BodyPose body_;
   Eigen::Isometry3d from_first_hips_;  // world at the first pose -> hips frame

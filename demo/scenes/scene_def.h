@@ -30,7 +30,8 @@ struct SceneDef {
   std::vector<uint32_t> pins;  ///< vertices that follow the body's hips
   pleat_cloth_settings settings{};
   std::vector<FixedBody> fixed;
-  BodyMotion motion;                                              ///< empty: nothing moves
+  TriangleMesh body;  ///< a mesh that moves: its triangles, and where they are at first; may be empty
+  BodyMotion motion;  ///< empty: nothing moves
   std::vector<Eigen::Vector3d> origins{Eigen::Vector3d::Zero()};  ///< a copy of garment, body and motion at each
   std::optional<double> ground;                                   ///< y of a floor to draw
   Eigen::Vector3d view{0.55, 0.25, 1.0};                          ///< towards the camera, any length

@@ -112,6 +112,8 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
     throw InputError(file.name(), "this scene has no motion that --clip could replace");
   }
   def.motion = motion.motion;
+  def.body = std::move(motion.body);
+  if (!def.body.positions.empty()) def.body.positions = def.motion(-motion.settle).vertices;
   def.settle = motion.settle;
   def.ground = motion.ground;
   if (motion.duration) def.frames = std::max(1u, uint32_t(*motion.duration * def.rate));

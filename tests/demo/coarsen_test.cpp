@@ -1,0 +1,61 @@
+#include "demo/scenes/coarsen.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace pleat::demo {
+namespace {
+
+/// n x n vertices, 1 m wide, flat.
+TriangleMesh grid(uint32_t n) {
+  TriangleMesh mesh;
+  for (uint32_t i = 0; i < n * n; ++i) {
+    mesh.positions.insert(mesh.positions.end(), {float(i % n) / float(n - 1), 0.0f, float(i / n) / float(n - 1)});
+    if (i % n == n - 1 || i >= n * (n - 1)) continue;
+    mesh.triangles.insert(mesh.triangles.end(), {i, i + n, i + 1, i + 1, i + n, i + n + 1});
+  }
+  return mesh;
+}
+
+/// Twice the area seen from above; what faces down counts against it.
+double area_from_above(const TriangleMesh& mesh) {
+  double area = 0.0;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const float* a = &mesh.positions[3 * mesh.triangles[t]];
+    const float* b = &mesh.positions[3 * mesh.triangles[t + 1]];
+    const float* c = &mesh.positions[3 * mesh.triangles[t + 2]];
+    area += double((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]));
+  }
+  return area;
+}
+
+TEST(Coarsen, KeepsTheSurfaceAManifoldOfTheSameShape) {
+  const TriangleMesh fine = grid(21), coarse = coarsen(fine, 100);
+  EXPECT_EQ(coarse.vertex_count(), 100u);
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (size_t t = 0; t < coarse.triangles.size(); t += 3) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = coarse.triangles[t + k], b = coarse.triangles[t + (k + 1) % 3];
+      ASSERT_LT(a, coarse.vertex_count());
+      EXPECT_EQ(++edges[std::pair(a, b)], 1) << "two triangles run along an edge the same way";
+    }
+  }
+  size_t undirected = 0;
+  for (const auto& [edge, count] : edges)
+    undirected += edge.first < edge.second || !edges.contains({edge.second, edge.first});
+  EXPECT_EQ(int(coarse.vertex_count()) - int(undirected) + int(coarse.triangle_count()), 1);  // Euler: still a disk
+  // No triangle turns over, and of the border only corners are cut.
+  EXPECT_NEAR(area_from_above(coarse), area_from_above(fine), 0.1 * area_from_above(fine));
+}
+
+TEST(Coarsen, StopsWhereTheSurfaceWouldChangeItsKind) {
+  TriangleMesh tetrahedron;
+  tetrahedron.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  EXPECT_EQ(coarsen(tetrahedron, 3).vertex_count(), 4u);
+  EXPECT_EQ(coarsen(grid(5), 1000).vertex_count(), 25u);
+}
+
+}  // namespace
+}  // namespace pleat::demo
