@@ -31,8 +31,8 @@ struct Budget {
 /// The paper's three parts, as stages.
 inline constexpr std::array<std::string_view, 3> kIntegrationStages = {"forces", "integration", "stretch"};
 inline constexpr std::array<std::string_view, 1> kCollisionStages = {"collision"};
-inline constexpr std::array<std::string_view, 4> kSmoothingStages = {"normals", "edge_length", "tessellation",
-                                                                     "drawn_normals"};
+inline constexpr std::array<std::string_view, 5> kSmoothingStages = {"normals", "edge_length", "fold_relaxation",
+                                                                     "tessellation", "drawn_normals"};
 
 /// Sum of the medians of these stages, us.
 double stage_sum(const std::vector<std::pair<std::string, demo::Spread>>& stages,

@@ -43,7 +43,16 @@ void print_row(const char* label, std::span<const SurfaceVerdict> verdicts, doub
   std::printf("\n");
 }
 
-void compare(const pleat_api& api, const std::filesystem::path& folder, std::optional<demo::OutputFile>& json) {
+/// The default settings, changed as the command line asks.
+pleat_cloth_settings settings_with(const pleat_api& api, std::span<const std::string> changes) {
+  pleat_cloth_def cloth;
+  api.cloth_def_init(&cloth, sizeof cloth);
+  for (const std::string& change : changes) demo::apply_option(change, cloth.settings);
+  return cloth.settings;
+}
+
+void compare(const pleat_api& api, const std::filesystem::path& folder, const pleat_cloth_settings& settings,
+             std::optional<demo::OutputFile>& json) {
   const std::vector<SurfaceTruth> truths = surface_truths(folder);
   std::vector<uint32_t> modes;
   for (const demo::SettingWord& surface : demo::kSurfaces) modes.push_back(surface.value);
@@ -53,7 +62,7 @@ void compare(const pleat_api& api, const std::filesystem::path& folder, std::opt
     demo::Progress progress("judging, case", uint32_t(truths.size() * std::size(kCoarseSides)));
     for (const SurfaceTruth& truth : truths) {
       for (const uint32_t n : kCoarseSides) {
-        verdicts.push_back(judge(api, truth, n, modes));
+        verdicts.push_back(judge(api, truth, n, modes, settings));
         progress.step();
       }
     }
@@ -87,9 +96,11 @@ int run_program(int argc, char** argv) {
       "surface to what is drawn, the error of the area, and what the drawing costs.",
       "surface_error");
   std::filesystem::path folder = PLEAT_FINE_DIR, json_path;
+  std::vector<std::string> changes;
   bool again = false;
   app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
   app.add_option("--fine", folder, "where the fine solutions are")->type_name("DIR")->capture_default_str();
+  app.add_option("--set", changes, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
   app.add_flag("--regenerate", again, "compute the fine solutions anew (some minutes) and keep them there");
   try {
     app.parse(argc, argv);
@@ -101,7 +112,7 @@ int run_program(int argc, char** argv) {
   std::optional<demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
   if (again) regenerate(api, folder);
-  compare(api, folder, json);
+  compare(api, folder, settings_with(api, changes), json);
   return 0;
 }
 

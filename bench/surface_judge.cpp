@@ -21,9 +21,9 @@ demo::Vector3d point(std::span<const float> positions, size_t i) {
 /// its stages take is the surface's cost.
 class Drawing {
  public:
-  Drawing(const pleat_api& api, const SurfaceTruth& truth, uint32_t n, uint32_t mode)
+  Drawing(const pleat_api& api, const SurfaceTruth& truth, uint32_t n, const pleat_cloth_settings& settings)
       : particles_(every(truth.positions, kFineSide, (kFineSide - 1) / (n - 1))),
-        scene_(api, scene_def(api, truth, n, mode, particles_), demo::StageClock::on_stage, &clock_) {}
+        scene_(api, scene_def(api, truth, n, settings, particles_), demo::StageClock::on_stage, &clock_) {}
 
   void draw() {
     clock_.begin_frame();
@@ -44,14 +44,11 @@ class Drawing {
   }
 
  private:
-  static demo::SceneDef scene_def(const pleat_api& api, const SurfaceTruth& truth, uint32_t n, uint32_t mode,
-                                  const std::vector<float>& particles) {
-    pleat_cloth_def cloth;
-    api.cloth_def_init(&cloth, sizeof cloth);
+  static demo::SceneDef scene_def(const pleat_api& api, const SurfaceTruth& truth, uint32_t n,
+                                  const pleat_cloth_settings& settings, const std::vector<float>& particles) {
     demo::SceneDef def;
     def.name = truth.name;
-    def.settings = cloth.settings;
-    def.settings.surface = mode;
+    def.settings = settings;
     def.garment = flat_square(api, n);
     if (!truth.flat_at_rest) def.garment.positions = particles;
     return def;
@@ -86,9 +83,13 @@ double mesh_area(std::span<const float> positions, std::span<const uint32_t> tri
 }
 
 std::vector<SurfaceVerdict> judge(const pleat_api& api, const SurfaceTruth& truth, uint32_t n,
-                                  std::span<const uint32_t> modes) {
+                                  std::span<const uint32_t> modes, const pleat_cloth_settings& settings) {
   std::deque<Drawing> drawings;  // a drawing stays where it was made: its scene calls its clock
-  for (const uint32_t mode : modes) drawings.emplace_back(api, truth, n, mode);
+  for (const uint32_t mode : modes) {
+    pleat_cloth_settings own = settings;
+    own.surface = mode;
+    drawings.emplace_back(api, truth, n, own);
+  }
   for (int round = 0; round < kRounds; ++round) {
     for (Drawing& drawing : drawings) drawing.draw();
   }

@@ -22,9 +22,9 @@ struct SurfaceVerdict {
   double us;                  ///< normals, edge length control, tessellation and shading normals together; median
 };
 
-/// Draws over n x n particles that lie on the truth: with each of `modes` (PLEAT_SURFACE_*) at the fan level. Nothing
-/// is simulated, so the surface alone is judged. The modes are timed in turn. n - 1 divides kFineSide - 1.
+/// Draws over n x n particles that lie on the truth: with each of `modes` (PLEAT_SURFACE_*) and else by `settings`.
+/// Nothing is simulated, so the surface alone is judged. The modes are timed in turn. n - 1 divides kFineSide - 1.
 std::vector<SurfaceVerdict> judge(const pleat_api& api, const SurfaceTruth& truth, uint32_t n,
-                                  std::span<const uint32_t> modes);
+                                  std::span<const uint32_t> modes, const pleat_cloth_settings& settings);
 
 }  // namespace pleat::bench

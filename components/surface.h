@@ -30,6 +30,21 @@ struct SurfaceColumns {
   explicit SurfaceColumns(std::pmr::memory_resource* m) : normal(m), fold(m), fold_height(m) {}
 };
 
+/// Scratch of fold relaxation, one element per edge of one cloth at a time.
+struct FoldScratchView {
+  Vec3View middle;     // m, where the edge's middle is now
+  Vec3View pull;       // m, sum of what its segments ask of it
+  float* half_length;  // m, of the chord that each half of the edge keeps
+  float* freedom;      // 0 where there is no fold .. 1
+};
+struct FoldScratch {
+  Vec3Column middle, pull;
+  Column<float> half_length, freedom;
+
+  explicit FoldScratch(std::pmr::memory_resource* m) : middle(m), pull(m), half_length(m), freedom(m) {}
+  FoldScratchView view() { return {middle.view(), pull.view(), half_length.data(), freedom.data()}; }
+};
+
 /// The drawn vertices, in the order of the cloth's TessellationPattern.
 struct DrawnColumns {
   Vec3Column position;  // m

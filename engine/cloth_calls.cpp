@@ -27,7 +27,9 @@ const pleat_cloth_def& default_cloth() {
                   .surface = kHasSmoothing ? PLEAT_SURFACE_PLEAT : PLEAT_SURFACE_FLAT,
                   .level = PLEAT_LEVEL_FAN,
                   .lift_coefficient = 0.0f,
-                  .inner_friction = 0.05f};
+                  .inner_friction = 0.05f,
+                  .inner_friction = 0.05f,
+                  .fold_sweeps = 0};
     return d;
   }();
   return def;
@@ -52,6 +54,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("surface", s.surface, 0, PLEAT_SURFACE_ARC_PN);
   need_range("level", s.level, 0, PLEAT_LEVEL_MAX);
   need_range("inner_friction", s.inner_friction, 0, 1e6);
+  need_range("fold_sweeps", s.fold_sweeps, 0, 64);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 

@@ -204,6 +204,8 @@ typedef struct pleat_cloth_settings {
   uint32_t level;         /* default PLEAT_LEVEL_FAN */
   float lift_coefficient; /* C_l: what air that passes a face at a slant adds to its drag, normal to it; default 0 */
   float inner_friction;   /* how threads that rub slow all motion, m/s2; default 0.05. It ends small swings */
+  uint32_t fold_sweeps;   /* steps in which the folds of PLEAT_SURFACE_PLEAT settle against each other; at most 64,
+                             default 0: each edge folds on its own */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:

@@ -54,6 +54,11 @@ void make_room(World& world, const ClothRecord& cloth) {
     for (const ClothRecord& other : world.clothes) edges += padded(other.garment().edge_count);
     resize_together(edges, world.surface.fold, world.surface.fold_height);
   }
+  const bool relaxed = cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.settings.fold_sweeps > 0;
+  if (curved && relaxed && world.fold_scratch.freedom.size() < cloth.garment().edge_count) {
+    FoldScratch& scratch = world.fold_scratch;
+    resize_together(cloth.garment().edge_count, scratch.middle, scratch.pull, scratch.half_length, scratch.freedom);
+  }
   if (!world.colliders.empty()) {
     const Garment& g = cloth.garment();
     const auto at_least = [](auto& column, std::size_t size) {

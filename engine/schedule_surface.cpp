@@ -3,6 +3,7 @@
 #ifdef PLEAT_WITH_SMOOTHING
 #include "systems/drawn_normals.h"
 #include "systems/edge_length.h"
+#include "systems/fold_relaxation.h"
 #include "systems/particle_normals.h"
 #include "systems/tessellation.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -27,6 +28,12 @@ const char* with_folds(const World&, const ClothRecord& c) {
                                                   : "surface without folds, edges keep their curve";
 }
 
+const char* with_fold_relaxation(const World&, const ClothRecord& c) {
+  return c.settings.fold_sweeps == 0                 ? "fold_sweeps = 0"
+         : c.settings.surface != PLEAT_SURFACE_PLEAT ? "folds of another surface, or none"
+                                                     : kNeeded;
+}
+
 constexpr Row kRows[] = {
     {Phase::kFrameEnd, "particle_normals", with_normals,
      [](ClothTick& t) {
@@ -44,6 +51,16 @@ constexpr Row kRows[] = {
                       .normal = t.normal,
                       .fold = t.fold,
                       .fold_height = t.fold_height});
+     }},
+    {Phase::kFrameEnd, "fold_relaxation", with_fold_relaxation,
+     [](ClothTick& t) {
+       run(FoldRelaxation{.sweeps = t.settings.fold_sweeps,
+                          .garment = &t.garment,
+                          .position = t.position,
+                          .normal = t.normal,
+                          .fold = t.fold,
+                          .fold_height = t.fold_height,
+                          .scratch = t.world.fold_scratch.view()});
      }},
     {Phase::kFrameEnd, "tessellation", always,
      [](ClothTick& t) {

@@ -99,7 +99,8 @@ World::World(const pleat_world_def& definition)
       mesh_candidates(&memory),
       detection_scratch(&memory),
       footprint(&memory),
-      clearance_planes(&memory) {}
+      clearance_planes(&memory),
+      fold_scratch(&memory) {}
 
 World::~World() = default;
 

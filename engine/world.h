@@ -116,6 +116,7 @@ struct World {
   Column<float> detection_scratch;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
+  FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
   std::uint32_t capsule_pose_count = 0, contact_count = 0;
 
   Stats stats;

@@ -66,16 +66,6 @@ void read_settings(const JsonValue& settings, pleat_cloth_settings& into) {
   }
 }
 
-void apply_option(const std::string& assignment, pleat_cloth_settings& into) {
-  const size_t equals = assignment.find('=');
-  if (equals == std::string::npos) throw InputError("--set " + assignment, "should be key=value");
-  try {
-    set_setting(into, assignment.substr(0, equals), assignment.substr(equals + 1));
-  } catch (const std::invalid_argument& error) {
-    throw InputError("--set " + assignment, error.what());
-  }
-}
-
 /// Copies stand in rows of `columns`, `spacing` apart in x and z.
 std::vector<Vector3d> read_copies(const JsonValue& copies) {
   copies.allow_keys({"count", "columns", "spacing"});

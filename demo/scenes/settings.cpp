@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "demo/input_error.h"
+
 namespace pleat::demo {
 namespace {
 
@@ -38,7 +40,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"face_response", &S::face_response, kFaceResponseWords},
                               {"surface", &S::surface, kSurfaceWords},
                               {"level", &S::level, kLevelWords},
-                              {"inner_friction", &S::inner_friction}};
+                              {"inner_friction", &S::inner_friction},
+                              {"fold_sweeps", &S::fold_sweeps}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {
@@ -84,6 +87,16 @@ void set_setting(pleat_cloth_settings& settings, std::string_view name, std::str
     return;
   }
   throw std::invalid_argument("unknown setting `" + std::string(name) + "`; known are " + names_of(kSettings));
+}
+
+void apply_option(const std::string& assignment, pleat_cloth_settings& into) {
+  const size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw InputError("--set " + assignment, "should be key=value");
+  try {
+    set_setting(into, assignment.substr(0, equals), assignment.substr(equals + 1));
+  } catch (const std::invalid_argument& error) {
+    throw InputError("--set " + assignment, error.what());
+  }
 }
 
 }  // namespace pleat::demo

@@ -31,4 +31,7 @@ extern const std::span<const SettingWord> kLevels;
 /// Throws std::invalid_argument with a line that names what is known.
 void set_setting(pleat_cloth_settings& settings, std::string_view name, std::string_view text);
 
+/// The same from the words `key=value` of an option `--set`. Throws InputError.
+void apply_option(const std::string& assignment, pleat_cloth_settings& into);
+
 }  // namespace pleat::demo

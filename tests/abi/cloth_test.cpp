@@ -44,6 +44,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
   refused("face_response", &S::face_response, 2u);
   refused("surface", &S::surface, 99u);
   refused("level", &S::level, PLEAT_LEVEL_MAX + 1);
+  refused("fold_sweeps", &S::fold_sweeps, 65u);
   const std::pair<const char*, float S::*> floats[] = {{"density", &S::density},
                                                        {"stiffness", &S::stiffness},
                                                        {"stretch_limit", &S::stretch_limit},

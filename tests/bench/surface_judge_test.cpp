@@ -13,6 +13,12 @@ namespace {
 
 const pleat_api& api() { return *pleat_get_api(PLEAT_API_MAJOR); }
 
+std::vector<SurfaceVerdict> judge(const SurfaceTruth& truth, uint32_t n, std::span<const uint32_t> modes) {
+  pleat_cloth_def cloth;
+  api().cloth_def_init(&cloth, sizeof cloth);
+  return judge(api(), truth, n, modes, cloth.settings);
+}
+
 SurfaceTruth plane() { return {"plane", flat_square(api(), kFineSide).positions, true}; }
 
 TEST(SurfaceJudge, DistanceOfAMovedPlane) {
@@ -38,7 +44,7 @@ TEST(SurfaceJudge, SamplesTheCoarseParticles) {
 TEST(SurfaceJudge, AFlatSheetIsDrawnExactlyByAllModes) {
   const uint32_t modes[] = {PLEAT_SURFACE_FLAT,  PLEAT_SURFACE_PN,        PLEAT_SURFACE_PAPER, PLEAT_SURFACE_PLEAT,
                             PLEAT_SURFACE_PHONG, PLEAT_SURFACE_SPHERIGON, PLEAT_SURFACE_ARC_PN};
-  for (const SurfaceVerdict& verdict : judge(api(), plane(), 5, modes)) {
+  for (const SurfaceVerdict& verdict : judge(plane(), 5, modes)) {
     EXPECT_LT(verdict.rms_mm, 1e-3);
     EXPECT_LT(std::abs(verdict.area_error_percent), 1e-3);
     EXPECT_GT(verdict.us, 0.0);
@@ -51,7 +57,7 @@ TEST(SurfaceJudge, CurvesAreCloserToARolledSheetThanTriangles) {
   const SurfaceTruth& cylinder = truths[4];
   ASSERT_EQ(cylinder.name, "cylinder");
   const uint32_t modes[] = {PLEAT_SURFACE_FLAT, PLEAT_SURFACE_PN, PLEAT_SURFACE_PLEAT};
-  const std::vector<SurfaceVerdict> verdicts = judge(api(), cylinder, 9, modes);
+  const std::vector<SurfaceVerdict> verdicts = judge(cylinder, 9, modes);
   // Chords of c on a radius of r sag by c^2 / (12 r) on the mean at most; edges of .125 m and diagonals of .18 m, r =
   // .5.
   EXPECT_GT(verdicts[0].rms_mm, 1.5);
@@ -64,7 +70,7 @@ TEST(SurfaceJudge, PleatFollowsTheHangingSquares) {
   const std::vector<SurfaceTruth> truths = surface_truths(PLEAT_FINE_DIR);
   const uint32_t modes[] = {PLEAT_SURFACE_FLAT, PLEAT_SURFACE_PN, PLEAT_SURFACE_PLEAT};
   for (size_t i = 0; i < kFineSquares.size(); ++i) {
-    const std::vector<SurfaceVerdict> verdicts = judge(api(), truths[i], 17, modes);
+    const std::vector<SurfaceVerdict> verdicts = judge(truths[i], 17, modes);
     EXPECT_LT(verdicts[2].rms_mm, 0.6 * verdicts[0].rms_mm) << truths[i].name;
     EXPECT_LT(verdicts[2].rms_mm, 0.8 * verdicts[1].rms_mm) << truths[i].name;
     EXPECT_LT(std::abs(verdicts[2].area_error_percent), 1.0) << truths[i].name;

@@ -147,6 +147,24 @@ TEST(Schedule, SurfaceColumnsExistOnlyWhereDrawnCurved) {
   EXPECT_EQ(scene.inside().surface.fold.size(), 3 * padded(33));
   EXPECT_TRUE(scene.explain("edge_length").find("run for 1 of 3 cloths") != std::string::npos);
 }
+
+TEST(Schedule, FoldsAreRelaxedOnlyWhereAskedFor) {
+  Scene scene;
+  const pleat_garment sheet = scene.sheet(4);
+  const pleat_cloth cloth = scene.cloth(sheet);
+  EXPECT_TRUE(scene.explain("fold_relaxation").ends_with("left out: fold_sweeps = 0"));
+  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 0u);
+  pleat_cloth_settings s = scene.settings(cloth);
+  s.fold_sweeps = 4, s.surface = PLEAT_SURFACE_PAPER;
+  must(call::cloth_set(scene, cloth, &s));
+  EXPECT_TRUE(scene.explain("fold_relaxation").ends_with("left out: folds of another surface, or none"));
+  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 0u);
+  s.surface = PLEAT_SURFACE_PLEAT;
+  must(call::cloth_set(scene, cloth, &s));
+  EXPECT_TRUE(runs(scene.explain("fold_relaxation")));
+  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 33u);
+  scene.step();
+}
 #endif
 
 TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
