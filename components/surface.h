@@ -33,7 +33,7 @@ struct SurfaceColumns {
 /// Scratch of fold relaxation, one element per edge of one cloth at a time.
 struct FoldScratchView {
   Vec3View middle;     // m, where the edge's middle is now
-  Vec3View pull;       // m, sum of what its segments ask of it
+  Vec3View pull;       // m, sum of what its segments ask of it, and of its last step
   float* half_length;  // m, of the chord that each half of the edge keeps
   float* freedom;      // 0 where there is no fold .. 1
 };

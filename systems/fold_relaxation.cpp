@@ -8,8 +8,9 @@ namespace pleat {
 namespace {
 
 // An edge's middle is the end of 2 halves and of up to 4 segments in faces, whose other ends move too: no curvature of
-// E exceeds 2 + 2 * 4 = 10. Any step below 2 / 10 lowers E.
+// E exceeds 2 + 2 * 4 = 10, and steps with momentum are stable below 2 (1 + kMomentum) / 10.
 constexpr float kStep = 0.19f;
+constexpr float kMomentum = 0.7f;     // of the last step kept: what 16 steps do without it takes 6 (Polyak 1964)
 constexpr float kSureHeight = 0.02f;  // of the edge's length: a fold half as free as a tall one
 constexpr float kTiny = 1e-20f;
 
@@ -30,13 +31,14 @@ void begin(const FoldRelaxation& s) {
       const Vec3 middle = block.curve(lane).middle() + s.fold[e] * s.fold_height[e];
       const float sure = kSureHeight * block.target[lane], h2 = s.fold_height[e] * s.fold_height[e];
       s.scratch.middle.set(e, middle);
+      s.scratch.pull.set(e, {});
       s.scratch.half_length[e] = 0.5f * (length(middle - block.a[lane]) + length(middle - block.b[lane]));
       s.scratch.freedom[e] = h2 / (h2 + sure * sure + kTiny);
     }
   }
 }
 
-/// The pulls along the halves of each edge, and the first of its sums.
+/// What is left of the last step, and the pulls along the halves of each edge.
 void pull_halves(const FoldRelaxation& s) {
   const Garment& g = *s.garment;
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
@@ -51,7 +53,9 @@ void pull_halves(const FoldRelaxation& s) {
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       sum.set(lane, pull(a[lane] - middle[lane], half[lane]) + pull(b[lane] - middle[lane], half[lane]));
     }
-    for (std::uint32_t lane = 0; lane < count; ++lane) s.scratch.pull.set(begin + lane, sum[lane]);
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      s.scratch.pull.set(begin + lane, s.scratch.pull[begin + lane] * kMomentum + sum[lane]);
+    }
   }
 }
 

@@ -11,8 +11,9 @@
 //       V0---a----V1          have half the length of the side that they run along, and the halves V0-a, a-V1, ... keep
 //                             theirs.
 //
-// What is relaxed is E = 1/2 sum (length - wanted)^2 over these segments, by steps against its gradient. Nothing is
-// remembered from frame to frame: the result is a continuous function of the particles, whatever the frame rate was.
+// What is relaxed is E = 1/2 sum (length - wanted)^2 over these segments, by steps with momentum against its gradient.
+// Nothing is remembered from frame to frame: the result is a continuous function of the particles, whatever the frame
+// rate was.
 #pragma once
 
 #include "components/garment.h"
@@ -24,7 +25,7 @@ namespace pleat {
 /// bit, and one of hardly any height hardly moves, so that nothing begins with a jump.
 /// Reads:  garment faces, edges and rest lengths; position (P) m; normal (P) unit
 /// Writes: fold (E) unit and fold_height (E) m; scratch (E)
-/// Cost:   O(sweeps E), no allocation. Errors: none; E does not rise, so folds stay bounded for any particles.
+/// Cost:   O(sweeps E), no allocation. Errors: none; folds stay bounded for any particles.
 struct FoldRelaxation {
   std::uint32_t sweeps = 0;
   const Garment* garment = nullptr;
