@@ -141,6 +141,7 @@ std::string stage_group(const std::string& system) {
       {"finite_guard", "integration"},    {"runge_kutta_integration", "integration"},
       {"velocity_update", "integration"}, {"stretch_constraint", "stretch"},
       {"collider_motion", "collision"},   {"capsule_detection", "collision"},
+      {"self_candidates", "self"},        {"self_detection", "self"},
       {"mesh_detection", "collision"},    {"collision_response", "collision"},
       {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
       {"contact_velocity", "collision"},  {"collision_last_word", "collision"},

@@ -29,7 +29,8 @@ const pleat_cloth_def& default_cloth() {
                   .lift_coefficient = 0.0f,
                   .inner_friction = 0.05f,
                   .inner_friction = 0.05f,
-                  .fold_sweeps = 0};
+                  .fold_sweeps = 0,
+                  .self_distance = 0.0f};
     return d;
   }();
   return def;
@@ -55,6 +56,8 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("level", s.level, 0, PLEAT_LEVEL_MAX);
   need_range("inner_friction", s.inner_friction, 0, 1e6);
   need_range("fold_sweeps", s.fold_sweeps, 0, 64);
+  need_range("self_distance", s.self_distance, 0, 1);
+  need_compiled(kHasCollision || s.self_distance == 0.0f, "self_distance", "PLEAT_COLLISION");
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 
@@ -242,6 +245,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
       world.particles.velocity.view().set(record.particle_begin + i, velocities != nullptr ? v[i] : Vec3{});
     }
     move_pins_to_particles(world, record);
+    record.self_pair_count = kNone;
     refresh(world, record);
   });
 }

@@ -206,6 +206,8 @@ typedef struct pleat_cloth_settings {
   float inner_friction;   /* how threads that rub slow all motion, m/s2; default 0.05. It ends small swings */
   uint32_t fold_sweeps;   /* steps in which the folds of PLEAT_SURFACE_PLEAT settle against each other; at most 64,
                              default 0: each edge folds on its own */
+  float
+      self_distance; /* kept between the cloth's particles and its own faces, m; default 0: it passes through itself */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -298,6 +300,7 @@ typedef struct pleat_stats {
   uint64_t bytes, peak_bytes;  /* held through it */
   uint64_t fast_bodies;        /* ticks of a cloth in which a capsule moved more than half its radius in a substep, so
                                   that it may have passed through: more substeps were not allowed */
+  uint64_t self_contacts;      /* of a cloth with itself: rows that pushed, last tick */
 } pleat_stats;
 
 /* What world_debug_draw shows. */

@@ -10,6 +10,7 @@
 #include "engine/schedule_table.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
+#include "systems/self_candidates.h"
 #include "systems/substep_bound.h"
 #endif
 
@@ -59,11 +60,23 @@ void make_room(World& world, const ClothRecord& cloth) {
     FoldScratch& scratch = world.fold_scratch;
     resize_together(cloth.garment().edge_count, scratch.middle, scratch.pull, scratch.half_length, scratch.freedom);
   }
+  const Garment& g = cloth.garment();
+  const auto at_least = [](auto& column, std::size_t size) {
+    if (column.size() < size) column.resize(size);
+  };
+  const bool touches_itself = cloth.settings.self_distance > 0.0f;
+  if (touches_itself || world.self.pairs.size() != 0) {
+    at_least(world.self.sought_at, particles);
+    at_least(world.self.pairs, SelfColumns::kPairsPerParticle * particles);
+  }
+#ifdef PLEAT_WITH_COLLISION
+  if (touches_itself) {
+    at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
+    at_least(world.self_scratch, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
+    at_least(world.cell_scratch, SelfCandidates::cell_scratch_size(g.particle_count));
+  }
+#endif
   if (!world.colliders.empty()) {
-    const Garment& g = cloth.garment();
-    const auto at_least = [](auto& column, std::size_t size) {
-      if (column.size() < size) column.resize(size);
-    };
     at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
     at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
     at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
@@ -257,7 +270,7 @@ void replan(World& world) {
 
 void tick(World& world, float dt) {
   ++world.ticks;
-  world.stats.particle_contacts = world.stats.face_contacts = 0;
+  world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = 0;
   update_bodies(world);
   for (ClothRecord& cloth : world.clothes) tick_cloth(world, cloth, dt);
   world.time += static_cast<double>(dt);

@@ -14,6 +14,8 @@
 #include "systems/mesh_candidates.h"
 #include "systems/mesh_detection.h"
 #include "systems/plane_detection.h"
+#include "systems/self_candidates.h"
+#include "systems/self_detection.h"
 #endif
 
 namespace pleat {
@@ -31,6 +33,32 @@ void respond(ClothTick& t) {
 
 constexpr Row kRows[] = {
 #ifdef PLEAT_WITH_COLLISION
+    // Rows of the cloth against itself come before those against bodies, which have the last word.
+    {Phase::kContact, "self_candidates", with_itself,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(SelfCandidates{.garment = &t.garment,
+                          .position = t.position,
+                          .previous = t.previous,
+                          .distance = t.settings.self_distance,
+                          .pairs = self_pairs_of(t),
+                          .sought_at = w.self.sought_at.view().from(t.cloth.particle_begin),
+                          .pair_scratch = w.self_scratch.data(),
+                          .cell_scratch = w.cell_scratch.data()},
+           w.stats);
+     }},
+    {Phase::kContact, "self_detection", with_itself,
+     [](ClothTick& t) {
+       run(SelfDetection{.garment = &t.garment,
+                         .position = t.position,
+                         .previous = t.previous,
+                         .inverse_mass = t.inverse_mass,
+                         .pairs = self_pairs_of(t),
+                         .friction = t.settings.friction,
+                         .dt = t.dt,
+                         .contacts = contacts_of(t)},
+           t.world.stats);
+     }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
@@ -138,13 +166,13 @@ constexpr Row kRows[] = {
      }},
 
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kSweep, "collision_response", with_colliders, respond},
-    {Phase::kSubstepEnd, "contact_friction", with_colliders,
+    {Phase::kSweep, "collision_response", with_contacts, respond},
+    {Phase::kSubstepEnd, "contact_friction", with_contacts,
      [](ClothTick& t) {
        run(ContactFriction{
            .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position});
      }},
-    {Phase::kSubstepEnd, "collision_last_word", with_colliders, respond},
+    {Phase::kSubstepEnd, "collision_last_word", with_contacts, respond},
 #endif
 
     {Phase::kSubstepEnd, "velocity_update", always,
@@ -157,7 +185,7 @@ constexpr Row kRows[] = {
                           .velocity = t.velocity});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kSubstepEnd, "contact_velocity", with_colliders,
+    {Phase::kSubstepEnd, "contact_velocity", with_contacts,
      [](ClothTick& t) {
        run(ContactVelocity{
            .contacts = contacts_of(t), .inverse_mass = t.inverse_mass, .dt = t.dt, .velocity = t.velocity});

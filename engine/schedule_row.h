@@ -33,11 +33,22 @@ inline const char* with_capsules_or_planes(const World& w, const ClothRecord&) {
 inline const char* with_meshes(const World& w, const ClothRecord&) {
   return w.colliders.empty() ? "no collider" : w.meshes.empty() ? "no mesh body" : kNeeded;
 }
+inline const char* with_itself(const World&, const ClothRecord& c) {
+  return c.settings.self_distance > 0.0f ? kNeeded : "self_distance is 0";
+}
+inline const char* with_contacts(const World& w, const ClothRecord& c) {
+  return with_itself(w, c) == kNeeded ? kNeeded : with_colliders(w, c);
+}
 
 #ifdef PLEAT_WITH_COLLISION
 inline ContactList contacts_of(ClothTick& t) {
   World& w = t.world;
   return {w.contacts.data(), static_cast<std::uint32_t>(w.contacts.size()), &w.contact_count};
+}
+inline SelfPairList self_pairs_of(ClothTick& t) {
+  constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;
+  return {t.world.self.pairs.data() + std::size_t{kPairs} * t.cloth.particle_begin, kPairs * t.garment.particle_count,
+          &t.cloth.self_pair_count};
 }
 #endif
 

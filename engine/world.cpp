@@ -88,6 +88,7 @@ World::World(const pleat_world_def& definition)
       pin_previous(&memory),
       pin_next(&memory),
       runge_kutta(&memory),
+      self(&memory),
       surface(&memory),
       drawn(&memory),
       capsules(&memory),
@@ -98,6 +99,8 @@ World::World(const pleat_world_def& definition)
       contacts(&memory),
       mesh_candidates(&memory),
       detection_scratch(&memory),
+      self_scratch(&memory),
+      cell_scratch(&memory),
       footprint(&memory),
       clearance_planes(&memory),
       fold_scratch(&memory) {}
@@ -184,9 +187,11 @@ void remove_cloth(World& world, std::uint32_t position) {
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
   for (Vec3Column* column : {&world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
-                             &world.runge_kutta.velocity_slope, &world.surface.normal}) {
+                             &world.runge_kutta.velocity_slope, &world.surface.normal, &world.self.sought_at}) {
     erase_if_present(*column, cloth.particle_begin, particles);
   }
+  constexpr std::size_t kPairs = SelfColumns::kPairsPerParticle;
+  erase_if_present(world.self.pairs, kPairs * cloth.particle_begin, kPairs * particles);
   world.pin_previous.erase(cloth.pin_begin, pins);
   world.pin_next.erase(cloth.pin_begin, pins);
   erase_if_present(world.surface.fold, cloth.edge_begin, edges);
@@ -215,15 +220,17 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
     close_drawn_gap(world, cloth);
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
   }
+  if (settings.self_distance != cloth.settings.self_distance) cloth.self_pair_count = kNone;
   cloth.settings = settings;
   set_masses(world, cloth);
 }
 
 std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
-  const std::uint64_t particle = 5 * sizeof(Vec3) + 2 * sizeof(float) +
-                                 (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
-                                 (world.surface.normal.size() != 0 ? sizeof(Vec3) : 0);
+  const std::uint64_t particle =
+      5 * sizeof(Vec3) + 2 * sizeof(float) + (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
+      (world.surface.normal.size() != 0 ? sizeof(Vec3) : 0) +
+      (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(SelfPair) : 0);
   const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0;
   return sizeof(ClothRecord) + range_of(g.particle_count) * particle + range_of(g.pins.size()) * 2 * sizeof(Vec3) +
          range_of(g.edge_count) * edge + drawn_range(cloth) * 2 * sizeof(Vec3);

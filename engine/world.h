@@ -16,6 +16,7 @@
 #include "components/garment.h"
 #include "components/mesh_candidates.h"
 #include "components/particles.h"
+#include "components/self_contacts.h"
 #include "components/stats.h"
 #include "components/surface.h"
 #include "components/tessellation_pattern.h"
@@ -46,6 +47,7 @@ struct ClothRecord {
   pleat_cloth_settings settings{};
   std::uint32_t particle_begin = 0, pin_begin = 0, edge_begin = 0, drawn_begin = 0;
   std::uint32_t substeps_taken = 0;
+  std::uint32_t self_pair_count = kNone;  // none were sought yet
   Plan plan = 0;
 
   const Garment& garment() const { return source->garment; }
@@ -100,6 +102,7 @@ struct World {
   ParticleColumns particles;
   Vec3Column pin_previous, pin_next;  // m, where pins were at the last tick's end and shall be at the next one's
   RungeKuttaColumns runge_kutta;      // empty unless a cloth integrates by it
+  SelfColumns self;                   // empty unless a cloth touches itself
   SurfaceColumns surface;             // empty unless a cloth is drawn curved
   DrawnColumns drawn;                 // empty where smoothing is compiled out
 
@@ -109,11 +112,13 @@ struct World {
   std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
 
-  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until there is a collider.
+  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until something needs it.
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
   Column<float> detection_scratch;
+  Column<SelfPair> self_scratch;
+  Column<std::uint32_t> cell_scratch;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds

@@ -105,6 +105,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.substeps = world.substeps;
     all.particle_contacts = world.stats.particle_contacts;
     all.face_contacts = world.stats.face_contacts;
+    all.self_contacts = world.stats.self_contacts;
     all.contacts_dropped = world.stats.contacts_dropped;
     all.edges_skipped = world.stats.edges_skipped;
     all.nonfinite_restored = world.stats.nonfinite_restored;

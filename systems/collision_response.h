@@ -12,10 +12,12 @@ enum class FaceResponse : std::uint32_t { kWeighted = 0, kWhole = 1 };
 
 /// One pass over the rows, in order: where C = d - n . sum of b x > 0 the row pushes.
 ///   weighted: x_i += w_i b_i / (sum of w b^2) C n, so that the touching point comes to lie exactly on the plane;
-///   whole:    x_i += C n for all corners alike (M. Oshita, A. Makinouchi, 2001, figure 6d); pinned ones stay.
+///   whole:    x_i += C n for all corners alike (M. Oshita, A. Makinouchi, 2001, figure 6d); pinned ones stay, and
+///             rows of the cloth against itself stay weighted.
 /// Normals, weights and planes are fixed, so passes may be repeated and mixed with the strain limit's.
 /// Reads:  inverse_mass (P) 1/kg
-/// Writes: position (P) m; push of the rows; stats.particle_contacts, face_contacts: rows that push for the first time
+/// Writes: position (P) m; push of the rows; stats.particle_, face_ and self_contacts: rows that push for the
+///         first time
 /// Cost:   O(rows), no allocation. Errors: none.
 struct CollisionResponse {
   ContactList contacts;

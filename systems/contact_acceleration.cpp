@@ -19,7 +19,7 @@ void ContactAcceleration::run() const {
   for (std::uint32_t c = 0; c < *contacts.count; ++c) {
     const ContactRow& row = contacts.rows[c];
     const std::uint32_t i = row.particle[0];
-    if (!row.at_particle || inverse_mass[i] == 0.0f) continue;
+    if (!row.at_particle() || inverse_mass[i] == 0.0f) continue;
     if (dot(row.normal, position[i]) - row.offset > kTouchingGap) continue;
     const Vec3 relative = velocity[i] - row.body_step * (1.0f / dt);
     const float pressing = -dot(row.normal, force[i]);

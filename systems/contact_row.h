@@ -9,13 +9,14 @@ namespace pleat {
 
 /// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
 /// may be moved against: 10 mm, or more for a cloth that moves further in the substep. m
+inline constexpr float kLeastContactMargin = 0.01f;
 inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
   float motion2 = 0.0f;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 d = position[i] - previous[i];
     motion2 = std::max(motion2, dot(d, d));
   }
-  return std::max(0.01f, std::sqrt(motion2));
+  return std::max(kLeastContactMargin, std::sqrt(motion2));
 }
 
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s
@@ -38,25 +39,31 @@ struct ContactRowMaker {
   /// n . (sum of weight x) >= n . surface + distance. Nothing is added where all weight is on pinned particles.
   void add(const std::uint32_t (&particle)[3], const float (&weight)[3], const Vec3& normal, const Vec3& surface,
            float distance, const Vec3& body_step, float body_friction, bool at_particle, Stats& stats) const {
-    ContactRow row{.particle = {particle[0], particle[1], particle[2]},
-                   .weight = {weight[0], weight[1], weight[2]},
-                   .normal = normal,
-                   .offset = 0.0f,
-                   .body_step = body_step,
-                   .friction = friction * body_friction,
-                   .inverse_mass = 0.0f,
-                   .push = 0.0f,
-                   .at_particle = at_particle};
-    Vec3 carried = body_step;
+    add({.particle = {particle[0], particle[1], particle[2]},
+         .weight = {weight[0], weight[1], weight[2]},
+         .count = at_particle ? 1u : 3u,
+         .normal = normal,
+         .offset = dot(normal, surface) + distance,
+         .body_step = body_step,
+         .friction = friction * body_friction,
+         .inverse_mass = 0.0f,
+         .push = 0.0f},
+        stats);
+  }
+
+  /// Fills in inverse_mass, and brings offset down to what the substep may undo.
+  void add(ContactRow row, Stats& stats) const {
+    Vec3 carried = row.body_step;
     float lightest = 0.0f;
-    for (int k = 0; k < 3; ++k) {
-      carried += previous[particle[k]] * weight[k];
-      row.inverse_mass += inverse_mass[particle[k]] * weight[k] * weight[k];
-      if (weight[k] > 0.0f) lightest = std::max(lightest, inverse_mass[particle[k]]);
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+      const float w = inverse_mass[row.particle[k]], b = row.weight[k];
+      carried += previous[row.particle[k]] * b;
+      row.inverse_mass += w * b * b;
+      if (b != 0.0f) lightest = std::max(lightest, w);
     }
     if (!(row.inverse_mass > 0.0f)) return;
     row.inverse_mass = std::max(row.inverse_mass, kLeastYield * lightest);
-    row.offset = std::min(dot(normal, surface) + distance, dot(normal, carried) + kRecoverySpeed * dt);
+    row.offset = std::min(row.offset, dot(row.normal, carried) + kRecoverySpeed * dt);
     if (!contacts.add(row)) ++stats.contacts_dropped;
   }
 };

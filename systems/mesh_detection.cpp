@@ -238,7 +238,7 @@ void MeshDetection::run(Stats& stats) const {
   }
   // A particle is pushed best by its own row; an edge's row first would overshoot at one end.
   std::partition(contacts.rows + first, contacts.rows + *contacts.count,
-                 [](const ContactRow& row) { return row.at_particle; });
+                 [](const ContactRow& row) { return row.at_particle(); });
 }
 
 }  // namespace pleat

@@ -118,6 +118,16 @@ void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& fram
   keep_largest(drawn_depth_, drawn);
 }
 
+void QualityMeter::add_crossings(const Crossings& coarse, const Crossings& drawn) {
+  const auto add = [](std::optional<Crossings>& all, const Crossings& of_frame) {
+    if (!all) all.emplace();
+    all->count += of_frame.count;
+    all->deepest = std::max(all->deepest, of_frame.deepest);
+  };
+  add(crossings_, coarse);
+  add(drawn_crossings_, drawn);
+}
+
 void QualityMeter::add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after) {
   for (uint32_t i = 0; i < mesh.pinned.size(); ++i) {
     if (mesh.pinned[i]) continue;
@@ -139,6 +149,13 @@ Quality QualityMeter::result() const {
   quality.penetration_particle_mm = millimetres(particle_depth_);
   quality.penetration_interior_mm = millimetres(interior_depth_);
   quality.penetration_drawn_mm = millimetres(drawn_depth_);
+  if (crossings_) {
+    const double frames = double(frame_elongation_.size());
+    quality.crossings_per_frame = double(crossings_->count) / frames;
+    quality.crossings_drawn_per_frame = double(drawn_crossings_->count) / frames;
+    quality.crossing_depth_mm = millimetres(crossings_->deepest);
+    quality.crossing_drawn_depth_mm = millimetres(drawn_crossings_->deepest);
+  }
   if (motions_ > 0) quality.rest_jitter_mm = 1000.0 * rms(squared_motion_, motions_);
   return quality;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "demo/quality/crossings.h"
 #include "demo/quality/distance.h"
 #include "demo/quality/solid_mesh.h"
 
@@ -22,7 +23,10 @@ struct Quality {
   std::optional<double> penetration_particle_mm;
   std::optional<double> penetration_interior_mm;  ///< 45 samples of each coarse triangle
   std::optional<double> penetration_drawn_mm;     ///< exact over the drawn triangles; for meshes at their corners
-  std::optional<double> rest_jitter_mm;           ///< RMS motion per frame of the free particles at rest
+  std::optional<double> crossings_per_frame;      ///< coarse edges through triangles of their own cloth, mean
+  std::optional<double> crossing_depth_mm;        ///< the deepest of them in any frame
+  std::optional<double> crossings_drawn_per_frame, crossing_drawn_depth_mm;  ///< the same of the drawn triangles
+  std::optional<double> rest_jitter_mm;  ///< RMS motion per frame of the free particles at rest
 };
 
 /// What of a cloth never changes.
@@ -50,6 +54,8 @@ class QualityMeter {
  public:
   void begin_frame();
   void add_cloth(const ClothMesh& mesh, const ClothFrame& frame, const Bodies& bodies);
+  /// How a cloth of this frame passes through itself.
+  void add_crossings(const Crossings& coarse, const Crossings& drawn);
   /// Two successive frames of a cloth whose pins and bodies rest; (P,3) m each.
   void add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after);
 
@@ -63,6 +69,7 @@ class QualityMeter {
   double squared_strain_ = 0.0, squared_stretch_ = 0.0, squared_motion_ = 0.0;
   size_t strains_ = 0, stretches_ = 0, motions_ = 0;
   std::optional<double> particle_depth_, interior_depth_, drawn_depth_;  // m
+  std::optional<Crossings> crossings_, drawn_crossings_;                 // of all frames
 };
 
 }  // namespace pleat::demo

@@ -59,6 +59,8 @@ void SceneQuality::add_frame(const Scene& scene, std::span<const DrawnSurface> s
     scene.read_particles(k, particles_);
     const std::vector<float> drawn = surfaces[k].positions();
     meter_.add_cloth(mesh_, {particles_, drawn, surfaces[k].indices}, bodies_of(scene, k));
+    if (!scene.def().crossings) continue;
+    meter_.add_crossings(find_crossings(particles_, mesh_.triangles), find_crossings(drawn, surfaces[k].indices));
   }
 }
 
@@ -90,6 +92,10 @@ nlohmann::ordered_json to_json(const Quality& quality) {
   put("penetration_particle_mm", quality.penetration_particle_mm);
   put("penetration_interior_mm", quality.penetration_interior_mm);
   put("penetration_drawn_mm", quality.penetration_drawn_mm);
+  put("crossings_per_frame", quality.crossings_per_frame);
+  put("crossing_depth_mm", quality.crossing_depth_mm);
+  put("crossings_drawn_per_frame", quality.crossings_drawn_per_frame);
+  put("crossing_drawn_depth_mm", quality.crossing_drawn_depth_mm);
   put("rest_jitter_mm", quality.rest_jitter_mm);
   return json;
 }

@@ -104,6 +104,11 @@ uint32_t JsonValue::integer(uint32_t least, uint32_t most) const {
   return uint32_t(number(least, most));
 }
 
+bool JsonValue::boolean() const {
+  if (!value_->is_boolean()) fail(std::string("should be true or false, is a ") + value_->type_name());
+  return value_->get<bool>();
+}
+
 std::string JsonValue::text() const {
   if (!value_->is_string()) fail(std::string("should be a text, is a ") + value_->type_name());
   return value_->get<std::string>();

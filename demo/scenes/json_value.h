@@ -31,6 +31,7 @@ class JsonValue {
   std::vector<JsonValue> items() const;  ///< of an array
   double number(double least, double most) const;
   uint32_t integer(uint32_t least, uint32_t most) const;
+  bool boolean() const;
   std::string text() const;
   Eigen::Vector3d vector(double least = -1e4, double most = 1e4) const;  ///< an array of three numbers
 

@@ -86,7 +86,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   set_size(document, sized, file.name());
   const JsonValue scene(document, file.name());
   scene.allow_keys({"description", "N", "rate", "frames", "gravity", "wind", "garment", "settings", "colliders",
-                    "motion", "copies", "ground", "view"});
+                    "motion", "copies", "crossings", "ground", "view"});
 
   SceneDef def;
   def.name = request.scene;
@@ -110,6 +110,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (const auto frames = scene.find("frames"); frames && request.clip.empty())
     def.frames = frames->integer(1, kMostFrames);
   if (request.frames) def.frames = *request.frames;
+  if (const auto crossings = scene.find("crossings")) def.crossings = crossings->boolean();
   if (const auto ground = scene.find("ground")) def.ground = ground->number(-1e4, 1e4);
   if (const auto view = scene.find("view")) def.view = view->vector(-1.0, 1.0);
 

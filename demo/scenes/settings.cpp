@@ -41,7 +41,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"surface", &S::surface, kSurfaceWords},
                               {"level", &S::level, kLevelWords},
                               {"inner_friction", &S::inner_friction},
-                              {"fold_sweeps", &S::fold_sweeps}};
+                              {"fold_sweeps", &S::fold_sweeps},
+                              {"self_distance", &S::self_distance}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

@@ -54,13 +54,13 @@ struct Incline {
   void add_row() {
     cloth.contacts().add({.particle = {0, 0, 0},
                           .weight = {1, 0, 0},
+                          .count = 1,
                           .normal = normal,
                           .offset = dot(normal, plane) + kThickness,
                           .body_step = plane_velocity * kDt,
                           .friction = friction,
                           .inverse_mass = cloth.inverse_mass[0],
-                          .push = 0.0f,
-                          .at_particle = true});
+                          .push = 0.0f});
   }
 };
 
