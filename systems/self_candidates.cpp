@@ -4,12 +4,12 @@
 
 #include "systems/box.h"
 #include "systems/closest_points.h"
-#include "systems/contact_row.h"
 
 namespace pleat {
 namespace {
 
 constexpr float kMarginShare = 0.25f;  // of the mean edge length
+constexpr float kOverlapShare = 0.1f;  // of the mean edge length: so far beside a face it is still touched
 constexpr float kRestShare = 0.5f;     // of the distance at rest that a pair may keep
 
 std::uint32_t bucket_count(std::size_t particle_count) {
@@ -84,55 +84,55 @@ class HashedGrid {
 /// One search over all faces.
 struct Search {
   const SelfCandidates& in;
-  float reach;
+  float high, wide;  // m, over and beside a face
   HashedGrid grid;
   const SelfPair* old;  // pairs of the last search that are still ahead, in the order of their faces
   const SelfPair* old_end;
   Stats& stats;
 
   void search(std::uint32_t face) {
-    const Prism prism(in, face, reach);
+    const Prism prism(*this, face);
     while (old != old_end && old->face < face) ++old;
     const auto meet = [&](std::uint32_t particle) {
       if (prism.holds(in.previous[particle], particle)) add(particle, face);
     };
-    const Cell low = grid.cell(prism.box.low), high = grid.cell(prism.box.high);
-    const auto span = [](std::int32_t from, std::int32_t to) { return double(to) - double(from) + 1.0; };
-    if (span(low.x, high.x) * span(low.y, high.y) * span(low.z, high.z) > in.garment->particle_count) {
+    const Cell from = grid.cell(prism.box.low), to = grid.cell(prism.box.high);
+    const auto cells = [](std::int32_t a, std::int32_t b) { return double(b) - double(a) + 1.0; };
+    if (cells(from.x, to.x) * cells(from.y, to.y) * cells(from.z, to.z) > in.garment->particle_count) {
       for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) meet(i);
       return;
     }
-    for (std::int32_t x = low.x; x <= high.x; ++x) {
-      for (std::int32_t y = low.y; y <= high.y; ++y) {
-        for (std::int32_t z = low.z; z <= high.z; ++z) grid.for_each_in({x, y, z}, meet);
+    for (std::int32_t x = from.x; x <= to.x; ++x) {
+      for (std::int32_t y = from.y; y <= to.y; ++y) {
+        for (std::int32_t z = from.z; z <= to.z; ++z) grid.for_each_in({x, y, z}, meet);
       }
     }
   }
 
  private:
-  /// The space over and under a face, `reach` beyond it on all sides.
+  /// The space over and under a face, up to `high` above it and to `wide` beside it.
   struct Prism {
-    float reach;
+    float high, wide;
     std::uint32_t corner[3];
     Vec3 x[3], normal, outward[3];
     Box box;
 
-    Prism(const SelfCandidates& in, std::uint32_t face, float distance) : reach(distance) {
+    Prism(const Search& search, std::uint32_t face) : high(search.high), wide(search.wide) {
       for (int k = 0; k < 3; ++k) {
-        corner[k] = in.garment->face_particle[k][face];
-        x[k] = in.previous[corner[k]];
+        corner[k] = search.in.garment->face_particle[k][face];
+        x[k] = search.in.previous[corner[k]];
         box.include(x[k]);
       }
-      box = box.grown(reach);
+      box = box.grown(std::max(high, wide));
       normal = normalized_or(cross(x[1] - x[0], x[2] - x[0]), Vec3{});
       for (int k = 0; k < 3; ++k) outward[k] = normalized_or(cross(x[(k + 1) % 3] - x[k], normal), Vec3{});
     }
     bool holds(const Vec3& p, std::uint32_t particle) const {
       if (particle == corner[0] || particle == corner[1] || particle == corner[2] || !box.overlaps({p, p}))
         return false;
-      if (std::abs(dot(p - x[0], normal)) > reach) return false;
+      if (std::abs(dot(p - x[0], normal)) > high) return false;
       for (int k = 0; k < 3; ++k) {
-        if (dot(p - x[k], outward[k]) > reach) return false;
+        if (dot(p - x[k], outward[k]) > wide) return false;
       }
       return true;
     }
@@ -185,12 +185,12 @@ void SelfCandidates::run(Stats& stats) const {
   }
   for (std::uint32_t i = 0; i < count; ++i) sought_at.set(i, previous[i]);
 
-  // Wide enough for this substep, however fast it is.
-  const float reach =
-      distance + kLeastContactMargin + std::max(margin, 2.0f * relative_motion(previous, position, count));
-  const HashedGrid grid(previous, count, garment->mean_edge_length + 2.0f * reach, cell_scratch);
+  // Far enough for this substep, however fast it is.
+  const float motion = std::max(margin, 2.0f * relative_motion(previous, position, count));
+  const float high = 2.0f * distance + motion, wide = kOverlapShare * garment->mean_edge_length + motion;
+  const HashedGrid grid(previous, count, garment->mean_edge_length + 2.0f * std::max(high, wide), cell_scratch);
   *pairs.count = 0;
-  Search search{*this, reach, grid, pair_scratch, pair_scratch + kept, stats};
+  Search search{*this, high, wide, grid, pair_scratch, pair_scratch + kept, stats};
   for (std::uint32_t f = 0; f < garment->face_count; ++f) search.search(f);
 }
 

@@ -56,7 +56,8 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"lift_coefficient", &S::lift_coefficient},
                                                        {"thickness", &S::thickness},
                                                        {"friction", &S::friction},
-                                                       {"inner_friction", &S::inner_friction}};
+                                                       {"inner_friction", &S::inner_friction},
+                                                       {"self_distance", &S::self_distance}};
   for (const auto& [name, field] : floats) {
     for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
   }

@@ -73,7 +73,8 @@ TEST(SelfContact, AFoldedSheetComesToRest) {
   // The upper half still lies on the lower one.
   const std::vector<float> x = scene.particles(cloth);
   for (std::uint32_t i = 0; i < 121; ++i) {
-    if (i % 11 >= 7) EXPECT_GT(x[3 * i + 1], 0.004f) << i;
+    const bool upper = i % 11 >= 7;
+    EXPECT_TRUE(!upper || x[3 * i + 1] > 0.004f) << i << " at height " << x[3 * i + 1];
   }
 }
 
