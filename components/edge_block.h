@@ -19,8 +19,8 @@ struct EdgeBlock {
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t e = begin + std::min(lane, count - 1);
       const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-      a.set(lane, position[i]), na.set(lane, normal[i]);
-      b.set(lane, position[j]), nb.set(lane, normal[j]);
+      a.set(lane, position[i]), na.set(lane, normal[g.edge_normal[0][e]]);
+      b.set(lane, position[j]), nb.set(lane, normal[g.edge_normal[1][e]]);
       target[lane] = g.edge_rest_curve_length[e];
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "components/creases.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
 
@@ -75,7 +76,6 @@ void add_edges(const GarmentInput& input, Garment& g) {
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
   g.edge_rest_length.resize(g.edge_count);
   g.edge_rest_curve_length.resize(g.edge_count);
-  g.edge_is_seam.resize(g.edge_count);
 
   double total = 0.0;
   std::uint32_t e = 0;
@@ -95,12 +95,6 @@ void add_edges(const GarmentInput& input, Garment& g) {
   }
   g.mean_edge_length = static_cast<float>(total / g.edge_count);
   g.border_edge_count = static_cast<std::uint32_t>(std::count(g.edge_face[1].begin(), g.edge_face[1].end(), kNone));
-
-  for (std::array<std::uint32_t, 2> seam : input.seams) {
-    std::sort(seam.begin(), seam.end());
-    const auto side = std::lower_bound(sides.begin(), sides.end(), Side{seam, 0, 0});
-    if (side != sides.end() && side->edge == seam) g.edge_is_seam[g.face_edge[side->k][side->face]] = 1;
-  }
 }
 
 void add_hinges(Garment& g) {
@@ -148,7 +142,6 @@ Garment::Garment(std::pmr::memory_resource* m)
       edge_face{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_rest_length(m),
       edge_rest_curve_length(m),
-      edge_is_seam(m),
       tether_particle(m),
       tether_pin(m),
       tether_length(m),
@@ -156,6 +149,11 @@ Garment::Garment(std::pmr::memory_resource* m)
                      Column<std::uint32_t>(m)},
       hinge_rest_angle(m),
       hinge_shape(m),
+      edge_is_crease(m),
+      face_normal{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      edge_normal{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      part_particle(m),
+      end_part{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       around_begin(m),
       faces_around(m) {}
 
@@ -166,6 +164,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   add_edges(input, garment);
   add_hinges(garment);
   measure_tethers(garment);
+  find_creases(input.seams, input.crease_angle, garment);
   measure_rest_curves(garment);
   return garment;
 }

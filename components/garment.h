@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <numbers>
 #include <span>
 
 #include "components/column.h"
@@ -37,7 +38,6 @@ struct Garment {
   Column<std::uint32_t> edge_face[2];    // the second is kNone on the border
   Column<float> edge_rest_length;        // m
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
-  Column<std::uint8_t> edge_is_seam;
 
   /// Edges from the farthest particle to a pin; without pins, about half of the way across its first part.
   std::uint32_t depth = 0;
@@ -52,6 +52,15 @@ struct Garment {
   Column<float> hinge_rest_angle;  // rad
   Column<float> hinge_shape;       // |e|^2 / (A1 + A2): times B it is the hinge's stiffness, N m
 
+  // Normals (N): first one for each particle, over all faces around it; then, where creases part these, one for each
+  // part; then one for each end of a crease that lies between two parts, the sum of these, so that both sides of the
+  // crease meet in one curve. Without creases N = P and all indices are the particles'.
+  std::uint32_t normal_count = 0, crease_count = 0;
+  Column<std::uint8_t> edge_is_crease;
+  Column<std::uint32_t> face_normal[3], edge_normal[2];  // at the corners and ends
+  Column<std::uint32_t> part_particle;                   // of each part, ascending
+  Column<std::uint32_t> end_part[2];                     // of each such end: the normals of the two parts
+
   // Faces around each particle i: faces_around[around_begin[i] .. around_begin[i + 1]), ascending.
   Column<std::uint32_t> around_begin, faces_around;
 };
@@ -62,7 +71,8 @@ struct GarmentInput {
   std::span<const float> uvs;           // 2 a vertex, or empty
   std::span<const std::uint32_t> pins;  // distinct, < positions.size()
   std::span<const std::array<std::uint32_t, 2>> seams;
-  std::span<const float> added_mass = {};  // kg a particle, or empty: none
+  std::span<const float> added_mass = {};          // kg a particle, or empty: none
+  float crease_angle = std::numbers::pi_v<float>;  // rad; components/creases.h
 };
 
 /// Builds the asset. Throws std::bad_alloc; the input must satisfy the notes above.

@@ -21,9 +21,9 @@ enum class SurfaceMode : std::uint32_t {
 /// Whether edge length control has a say.
 constexpr bool has_folds(SurfaceMode mode) { return mode == SurfaceMode::kPaper || mode == SurfaceMode::kPleat; }
 
-/// One element per coarse particle (normal) or edge (the others). Only where a cloth is drawn curved.
+/// One element per normal of the garment or per edge (the others). Only where a cloth is drawn curved.
 struct SurfaceColumns {
-  Vec3Column normal;          // unit, per particle
+  Vec3Column normal;          // unit, as the garment counts normals
   Vec3Column fold;            // unit, per edge: direction in which its midpoint is moved
   Column<float> fold_height;  // m, per edge: how far; 0 where the edge is not short. Negative folds inward
 
@@ -47,10 +47,12 @@ struct FoldScratch {
 
 /// The drawn vertices, in the order of the cloth's TessellationPattern.
 struct DrawnColumns {
-  Vec3Column position;  // m
-  Vec3Column normal;    // unit
+  Vec3Column position;       // m
+  Vec3Column normal;         // unit, per shaded vertex
+  Vec3Column tangent;        // unit, per shaded vertex, and
+  Column<float> handedness;  // 1 or -1: both empty unless a cloth asks for tangents
 
-  explicit DrawnColumns(std::pmr::memory_resource* m) : position(m), normal(m) {}
+  explicit DrawnColumns(std::pmr::memory_resource* m) : position(m), normal(m), tangent(m), handedness(m) {}
 };
 
 }  // namespace pleat

@@ -1,5 +1,8 @@
 #include "components/tessellation_pattern.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "components/pn_triangle.h"
 
 namespace pleat {
@@ -118,6 +121,56 @@ void set_face_vertices(const Garment& garment, std::uint32_t f, TessellationPatt
   for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) *vertex++ = pattern.face_vertex(f, i);
 }
 
+void set_face_weights(TessellationPattern& pattern) {
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    std::array<float, 3> corner{};
+    corner[k] = 1.0f;
+    pattern.face_weights.push_back(corner);
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
+      std::array<float, 3> side{};
+      side[(k + 1) % 3] = static_cast<float>(step) / static_cast<float>(pattern.segments);
+      side[k] = 1.0f - side[(k + 1) % 3];
+      pattern.face_weights.push_back(side);
+    }
+  }
+  for (const InnerPoint& q : pattern.inner) pattern.face_weights.push_back({q.face[0], q.face[1], q.face[2]});
+}
+
+/// Twins: at a particle one for each part of its faces but the first; along a crease one for each vertex, used by the
+/// second face.
+void add_twins(const Garment& g, TessellationPattern& pattern) {
+  if (g.crease_count == 0) return;
+  const auto add_twin = [&](std::uint32_t vertex) {
+    pattern.twins.push_back(vertex);
+    return pattern.shaded_count() - 1;
+  };
+  std::vector<std::uint32_t> of_part(g.part_particle.size()), of_crease(g.edge_count);
+  for (std::size_t p = 0; p < of_part.size(); ++p) {
+    const std::uint32_t i = g.part_particle[p];
+    of_part[p] = p == 0 || g.part_particle[p - 1] != i ? i : add_twin(i);
+  }
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    if (!g.edge_is_crease[e]) continue;
+    of_crease[e] = pattern.shaded_count();
+    for (std::uint32_t step = 1; step < pattern.segments; ++step) add_twin(pattern.edge_vertex(e, step));
+  }
+
+  pattern.face_shaded.resize(pattern.face_vertices.size());
+  std::copy(pattern.face_vertices.begin(), pattern.face_vertices.end(), pattern.face_shaded.begin());
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    std::uint32_t* shaded = &pattern.face_shaded[std::size_t{f} * pattern.vertices_per_face];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t normal = g.face_normal[k][f], e = g.face_edge[k][f];
+      if (normal >= g.particle_count) shaded[k] = of_part[normal - g.particle_count];
+      if (!g.edge_is_crease[e] || g.edge_face[1][e] != f) continue;
+      std::uint32_t* side = shaded + 3 + k * (pattern.segments - 1);
+      for (std::uint32_t s = 0; s + 1 < pattern.segments; ++s) side[s] += of_crease[e] - pattern.edge_vertex(e, 1);
+    }
+  }
+}
+
 }  // namespace
 
 TessellationPattern build_tessellation(const Garment& garment, std::uint32_t level, std::pmr::memory_resource* memory) {
@@ -137,9 +190,11 @@ TessellationPattern build_tessellation(const Garment& garment, std::uint32_t lev
 
   pattern.face_vertices.resize(std::size_t{garment.face_count} * pattern.vertices_per_face);
   pattern.indices.resize(garment.face_count * indices_per_face);
+  set_face_weights(pattern);
+  for (std::uint32_t f = 0; f < garment.face_count; ++f) set_face_vertices(garment, f, pattern);
+  add_twins(garment, pattern);
   for (std::uint32_t f = 0; f < garment.face_count; ++f) {
-    set_face_vertices(garment, f, pattern);
-    const std::uint32_t* vertex = &pattern.face_vertices[std::size_t{f} * pattern.vertices_per_face];
+    const std::uint32_t* vertex = pattern.shaded_vertices() + std::size_t{f} * pattern.vertices_per_face;
     for (std::size_t i = 0; i < indices_per_face; ++i) {
       pattern.indices[f * indices_per_face + i] = vertex[pattern.face_triangles[i]];
     }

@@ -5,6 +5,10 @@
 //   fan      each face is split in four at its edges' midpoints; the three corner patches are drawn with 4 triangles,
 //            the middle one as a fan of 6 around its centre: 18 in all (the paper, section 5)
 //   n = 1..8 each of the four patches is drawn with n^2 triangles: 4 n^2 in all
+//
+// Shaded vertices are the drawn ones and, where creases are, twins of them: the same place with the normal of the other
+// side. What moves the surface moves drawn vertices, of which there is one a place; what shades it, and the host's
+// index buffer, goes by shaded vertices.
 #pragma once
 
 #include <array>
@@ -29,7 +33,13 @@ struct InnerPoint {
 
 struct TessellationPattern {
   explicit TessellationPattern(std::pmr::memory_resource* memory)
-      : inner(memory), indices(memory), face_vertices(memory), face_triangles(memory) {}
+      : inner(memory),
+        indices(memory),
+        twins(memory),
+        face_vertices(memory),
+        face_shaded(memory),
+        face_weights(memory),
+        face_triangles(memory) {}
 
   std::uint32_t level = 0;     // 0 = fan
   std::uint32_t segments = 0;  // drawn segments on each coarse edge: 4 at the fan level, else 2 n
@@ -37,13 +47,23 @@ struct TessellationPattern {
   std::uint32_t first_edge_vertex = 0;  // = particle count; edge e owns segments - 1 vertices from its lower end on
   std::uint32_t first_face_vertex = 0;  // face f owns inner.size() vertices
   Column<InnerPoint> inner;
-  Column<std::uint32_t> indices;  // 3 a drawn triangle, counter-clockwise like the face
+  Column<std::uint32_t> indices;  // 3 shaded vertices a drawn triangle, counter-clockwise like the face
+  Column<std::uint32_t> twins;    // of which drawn vertex shaded vertex vertex_count + i is the twin
 
   // The same triangles as one list for all faces, over each face's own numbering of its vertices: the corners, then the
   // vertices along sides 0, 1 and 2 as the face runs, then the inner ones.
   std::uint32_t vertices_per_face = 0;
-  Column<std::uint32_t> face_vertices;   // vertices_per_face a face: their drawn vertices
-  Column<std::uint32_t> face_triangles;  // 3 of a face's own numbers a triangle
+  Column<std::uint32_t> face_vertices;        // vertices_per_face a face: their drawn vertices
+  Column<std::uint32_t> face_shaded;          // the same: their shaded vertices; empty where there are no twins
+  Column<std::array<float, 3>> face_weights;  // their barycentrics in the face
+  Column<std::uint32_t> face_triangles;       // 3 of a face's own numbers a triangle
+
+  std::uint32_t shaded_count() const { return vertex_count + static_cast<std::uint32_t>(twins.size()); }
+  /// The drawn vertex where a shaded one is.
+  std::uint32_t place(std::uint32_t shaded) const {
+    return shaded < vertex_count ? shaded : twins[shaded - vertex_count];
+  }
+  const std::uint32_t* shaded_vertices() const { return twins.size() == 0 ? face_vertices.data() : face_shaded.data(); }
 
   std::uint32_t edge_vertex(std::uint32_t edge, std::uint32_t step) const {  // step 1 .. segments - 1
     return first_edge_vertex + edge * (segments - 1) + (step - 1);

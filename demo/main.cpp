@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "demo/compare.h"
 #include "demo/inform.h"
 #include "demo/program/entry.h"
 #include "demo/run.h"
@@ -10,9 +11,11 @@
 
 namespace {
 
+using pleat::demo::CompareOptions;
 using pleat::demo::kBadInput;
 using pleat::demo::PictureSize;
 using pleat::demo::RunOptions;
+using pleat::demo::SceneRequest;
 
 PictureSize parse_size(const std::string& text) {
   PictureSize size;
@@ -24,12 +27,24 @@ PictureSize parse_size(const std::string& text) {
   return size;
 }
 
-void add_run_options(CLI::App& run, RunOptions& options) {
-  auto& scene = options.scene;
+void add_scene_options(CLI::App& run, SceneRequest& scene) {
   run.add_option("scene", scene.scene, "a scene of `pleat list` or the path of a JSON file, :N sets its size")
       ->capture_default_str();
   run.add_option("--clip", scene.clip, "motion to play in place of the scene's, a BVH file")->type_name("FILE");
   run.add_option("--rate", scene.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
+  run.add_option("--set", scene.settings, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
+}
+
+void add_size_option(CLI::App& run, PictureSize& size, const std::string& shown) {
+  run.add_option_function<std::string>(
+         "--size", [&size](const std::string& text) { size = parse_size(text); }, "of a picture, pixels")
+      ->type_name("WxH")
+      ->default_str(shown);
+}
+
+void add_run_options(CLI::App& run, RunOptions& options) {
+  auto& scene = options.scene;
+  add_scene_options(run, scene);
   run.add_option("--frames", scene.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
   const auto setting = [&scene](const char* key) {
     return [&scene, key](const std::string& value) { scene.settings.push_back(std::string(key) + "=" + value); };
@@ -37,14 +52,23 @@ void add_run_options(CLI::App& run, RunOptions& options) {
   run.add_option_function<std::string>("--surface", setting("surface"),
                                        "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
   run.add_option_function<std::string>("--level", setting("level"), "triangles a face: fan (18) or n = 1..8 (4 n^2)");
-  run.add_option("--set", scene.settings, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
   run.add_option("--out", options.out, "folder for pictures")->type_name("DIR")->capture_default_str();
-  run.add_option_function<std::string>(
-         "--size", [&options](const std::string& text) { options.size = parse_size(text); }, "of a picture, pixels")
-      ->type_name("WxH")
-      ->default_str("1280x720");
+  add_size_option(run, options.size, "1280x720");
   run.add_flag("!--no-render", options.render, "simulate only: no pictures");
   run.add_option("--json", options.json, "write a report for scripts")->type_name("FILE");
+}
+
+void add_compare_options(CLI::App& compare, CompareOptions& options) {
+  add_scene_options(compare, options.scene);
+  compare.add_option("--row", options.rows, "settings of a row of pictures, joined by commas; once for each row")
+      ->type_name("KEY=VALUE")
+      ->required();
+  compare.add_option("--first", options.first, "first frame shown")->check(CLI::Range(1, 1000000));
+  compare.add_option("--every", options.every, "frames from one picture to the next")->check(CLI::Range(1, 10000));
+  compare.add_option("--columns", options.columns, "pictures a row")->check(CLI::Range(1, 100));
+  compare.add_flag("--close-up", options.close_up, "one picture a row: close to where the first two rows differ most");
+  add_size_option(compare, options.size, "640x640");
+  compare.add_option("--out", options.out, "the picture")->type_name("FILE")->capture_default_str();
 }
 
 int run_program(int argc, char** argv, const pleat_api& api) {
@@ -53,8 +77,11 @@ int run_program(int argc, char** argv, const pleat_api& api) {
   RunOptions options;
   CLI::App* list = app.add_subcommand("list", "scenes, surfaces, integrators, settings, features");
   CLI::App* run = app.add_subcommand("run", "simulate a scene; write pictures, a film and a table of costs");
+  CLI::App* compare = app.add_subcommand("compare", "one picture of a scene under different settings");
   CLI::App* explain = app.add_subcommand("explain", "which systems run for a scene, and which do not and why");
   add_run_options(*run, options);
+  CompareOptions comparison;
+  add_compare_options(*compare, comparison);
   explain->add_option("scene", options.scene.scene, "as for run")->capture_default_str();
   try {
     app.parse(argc, argv);
@@ -63,6 +90,7 @@ int run_program(int argc, char** argv, const pleat_api& api) {
   }
   if (*list) pleat::demo::list(api);
   if (*run) pleat::demo::run(api, options);
+  if (*compare) pleat::demo::compare(api, comparison);
   if (*explain) pleat::demo::explain(api, options.scene);
   return 0;
 }

@@ -54,8 +54,13 @@ pleat_result cloth_info(const pleat_world*, pleat_cloth, pleat_cloth_info*);
 pleat_result cloth_move_pins(pleat_world*, pleat_cloth, const float*, uint32_t, uint32_t);
 pleat_result cloth_read_particles(const pleat_world*, pleat_cloth, float*, float*, uint32_t);
 pleat_result cloth_write_particles(pleat_world*, pleat_cloth, const float*, const float*, uint32_t);
+
+// drawn_calls.cpp
+pleat_result vertex_target_init(pleat_vertex_target*, size_t);
 pleat_result cloth_read_vertices(const pleat_world*, pleat_cloth, const pleat_vertex_target*);
 pleat_result cloth_read_indices(const pleat_world*, pleat_cloth, uint32_t*, uint32_t);
+pleat_result cloth_read_indices_16(const pleat_world*, pleat_cloth, uint16_t*, uint32_t);
+pleat_result cloth_suggest_level(const pleat_world*, pleat_cloth, float, uint32_t*);
 
 // fabric_calls.cpp
 pleat_result fabric_apply(uint32_t, pleat_cloth_settings*);

@@ -30,7 +30,8 @@ const pleat_cloth_def& default_cloth() {
                   .inner_friction = 0.05f,
                   .inner_friction = 0.05f,
                   .fold_sweeps = 0,
-                  .self_distance = 0.0f};
+                  .self_distance = 0.0f,
+                  .tangents = 0};
     return d;
   }();
   return def;
@@ -58,6 +59,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("fold_sweeps", s.fold_sweeps, 0, 64);
   need_range("self_distance", s.self_distance, 0, 1);
   need_compiled(kHasCollision || s.self_distance == 0.0f, "self_distance", "PLEAT_COLLISION");
+  need_range("tangents", s.tangents, 0, 1);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 
@@ -68,58 +70,6 @@ void move_pins_to_particles(World& world, const ClothRecord& cloth) {
     world.pin_previous.view().set(cloth.pin_begin + k, x);
     world.pin_next.view().set(cloth.pin_begin + k, x);
   }
-}
-
-/// Where the drawn surface is read from: what the tessellation made, or the coarse mesh where that is compiled out.
-struct DrawnView {
-  std::uint32_t vertex_count, triangle_count;
-  ConstVec3View position, normal;  // normal.x is null for the coarse mesh
-};
-
-DrawnView drawn_view(const World& world, const ClothRecord& cloth) {
-  if (const TessellationPattern* pattern = cloth.pattern()) {
-    return {pattern->vertex_count, pattern->triangle_count, world.drawn.position.view().from(cloth.drawn_begin),
-            world.drawn.normal.view().from(cloth.drawn_begin)};
-  }
-  const Garment& g = cloth.garment();
-  return {g.particle_count, g.face_count, world.particles.position.view().from(cloth.particle_begin), {}};
-}
-
-/// Area-weighted normal of the faces around a coarse particle.
-Vec3 coarse_normal(const Garment& g, ConstVec3View x, std::uint32_t i) {
-  Vec3 sum;
-  for (std::uint32_t k = g.around_begin[i]; k < g.around_begin[i + 1]; ++k) {
-    const std::uint32_t f = g.faces_around[k];
-    const Vec3 a = x[g.face_particle[0][f]];
-    sum += cross(x[g.face_particle[1][f]] - a, x[g.face_particle[2][f]] - a);
-  }
-  return normalized_or(sum, {0.0f, 1.0f, 0.0f});
-}
-
-/// Where a drawn vertex lies on the coarse mesh, for attributes that are linear on it.
-std::array<float, 2> coarse_uv(const Garment& g, std::uint32_t i) {
-  return g.uv.size() != 0 ? std::array{g.uv[2 * i], g.uv[2 * i + 1]} : std::array{0.0f, 0.0f};
-}
-
-std::array<float, 2> drawn_uv(const Garment& g, const TessellationPattern* pattern, std::uint32_t v) {
-  if (g.uv.size() == 0 || v < g.particle_count) return coarse_uv(g, v);
-  std::array<float, 2> uv{};
-  const auto blend = [&](std::uint32_t particle, float weight) {
-    const std::array<float, 2> corner = coarse_uv(g, particle);
-    uv[0] += weight * corner[0];
-    uv[1] += weight * corner[1];
-  };
-  if (v < pattern->first_face_vertex) {
-    const std::uint32_t k = v - pattern->first_edge_vertex, per_edge = pattern->segments - 1;
-    const float t = static_cast<float>(k % per_edge + 1) / static_cast<float>(pattern->segments);
-    blend(g.edge_particle[0][k / per_edge], 1.0f - t);
-    blend(g.edge_particle[1][k / per_edge], t);
-  } else {
-    const std::uint32_t k = v - pattern->first_face_vertex;
-    const std::uint32_t per_face = static_cast<std::uint32_t>(pattern->inner.size()), f = k / per_face;
-    for (int c = 0; c < 3; ++c) blend(g.face_particle[c][f], pattern->inner[k % per_face].face[c]);
-  }
-  return uv;
 }
 
 }  // namespace
@@ -190,11 +140,12 @@ pleat_result cloth_info(const pleat_world* handle, pleat_cloth cloth, pleat_clot
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
     need_pointer("info", info);
-    const DrawnView drawn = drawn_view(world, record);
-    *info = {.particles = record.garment().particle_count,
-             .triangles = record.garment().face_count,
-             .drawn_vertices = drawn.vertex_count,
-             .drawn_triangles = drawn.triangle_count,
+    const Garment& g = record.garment();
+    const TessellationPattern* pattern = record.pattern();
+    *info = {.particles = g.particle_count,
+             .triangles = g.face_count,
+             .drawn_vertices = pattern != nullptr ? pattern->shaded_count() : g.particle_count,
+             .drawn_triangles = pattern != nullptr ? pattern->triangle_count : g.face_count,
              .substeps = record.substeps_taken,
              .bytes = bytes_of(world, record)};
   });
@@ -247,60 +198,6 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     move_pins_to_particles(world, record);
     record.self_pair_count = kNone;
     refresh(world, record);
-  });
-}
-
-pleat_result cloth_read_vertices(const pleat_world* handle, pleat_cloth cloth, const pleat_vertex_target* target) {
-  return guarded(as_world(handle), "cloth_read_vertices", [&] {
-    const World& world = need_world(handle);
-    const ClothRecord& record = need_cloth(world, cloth);
-    need_pointer("target", target);
-    need_pointer("target.data", target->data);
-    const DrawnView drawn = drawn_view(world, record);
-    need_capacity("target.capacity", target->capacity, drawn.vertex_count);
-    const auto fits = [&](const char* name, std::uint32_t offset, std::uint32_t bytes) {
-      if (offset != PLEAT_NO_ATTRIBUTE && std::uint64_t{offset} + bytes > target->stride) {
-        refuse(std::string("target.") + name + " is " + std::to_string(offset) + ", beyond a stride of " +
-               std::to_string(target->stride));
-      }
-      return offset != PLEAT_NO_ATTRIBUTE;
-    };
-    const bool with_position = fits("position_offset", target->position_offset, 12);
-    const bool with_normal = fits("normal_offset", target->normal_offset, 12);
-    const bool with_uv = fits("uv_offset", target->uv_offset, 8);
-
-    char* out = static_cast<char*>(target->data);
-    for (std::uint32_t i = 0; i < drawn.vertex_count; ++i, out += target->stride) {
-      if (with_position) {
-        const Vec3 x = drawn.position[i];
-        std::memcpy(out + target->position_offset, &x, sizeof x);
-      }
-      if (with_normal) {
-        const Vec3 n = drawn.normal.x != nullptr ? drawn.normal[i] : coarse_normal(record.garment(), drawn.position, i);
-        std::memcpy(out + target->normal_offset, &n, sizeof n);
-      }
-      if (with_uv) {
-        const std::array<float, 2> uv = drawn_uv(record.garment(), record.pattern(), i);
-        std::memcpy(out + target->uv_offset, uv.data(), sizeof uv);
-      }
-    }
-  });
-}
-
-pleat_result cloth_read_indices(const pleat_world* handle, pleat_cloth cloth, uint32_t* indices, uint32_t capacity) {
-  return guarded(as_world(handle), "cloth_read_indices", [&] {
-    const ClothRecord& record = need_cloth(need_world(handle), cloth);
-    need_pointer("indices", indices);
-    if (const TessellationPattern* pattern = record.pattern()) {
-      need_capacity("capacity", capacity, pattern->indices.size());
-      std::copy(pattern->indices.begin(), pattern->indices.end(), indices);
-    } else {
-      const Garment& g = record.garment();
-      need_capacity("capacity", capacity, std::size_t{3} * g.face_count);
-      for (std::uint32_t f = 0; f < g.face_count; ++f) {
-        for (std::uint32_t k = 0; k < 3; ++k) indices[3 * f + k] = g.face_particle[k][f];
-      }
-    }
   });
 }
 

@@ -1,3 +1,4 @@
+#include "components/pn_edge.h"
 #include "engine/border.h"
 #include "engine/calls.h"
 #ifdef PLEAT_WITH_SMOOTHING
@@ -39,7 +40,7 @@ void draw_base_normals(const World& world, const ClothRecord& cloth, const Lines
   const Garment& g = cloth.garment();
   const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
   Vec3Column base(std::pmr::new_delete_resource());
-  base.resize(g.particle_count);
+  base.resize(g.normal_count);
   ParticleNormals{.mode = SurfaceMode::kPn, .garment = &g, .position = x, .normal = base.view(), .fold = {}}.run();
   draw_normals(g, x, base.view(), kYellow, lines);
 }
@@ -48,14 +49,13 @@ void draw_base_normals(const World& world, const ClothRecord& cloth, const Lines
 void draw_folds(const World& world, const ClothRecord& cloth, const Lines& lines) {
   const Garment& g = cloth.garment();
   const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
-  const ConstVec3View n = world.surface.normal.view().from(cloth.particle_begin);
+  const ConstVec3View n = world.surface.normal.view().from(cloth.normal_begin);
   const ConstVec3View fold = world.surface.fold.view().from(cloth.edge_begin);
   const float* height = world.surface.fold_height.data() + cloth.edge_begin;
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     if (height[e] == 0.0f) continue;
     const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-    const Vec3 d = x[j] - x[i];
-    const Vec3 middle = (x[i] + x[j]) * 0.5f - (n[i] * dot(d, n[i]) - n[j] * dot(d, n[j])) * 0.125f;
+    const Vec3 middle = PnEdge(x[i], x[j], n[g.edge_normal[0][e]], n[g.edge_normal[1][e]]).middle();
     lines.line(middle, middle + fold[e] * height[e], kPurple);
   }
 }
@@ -93,7 +93,7 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
       const std::uint32_t mode = cloth.settings.surface;
       if (what & PLEAT_DEBUG_BASE_NORMALS) draw_base_normals(world, cloth, lines);
       if ((what & PLEAT_DEBUG_FORCE_NORMALS) && mode != PLEAT_SURFACE_FLAT) {
-        draw_normals(cloth.garment(), x, world.surface.normal.view().from(cloth.particle_begin), kOrange, lines);
+        draw_normals(cloth.garment(), x, world.surface.normal.view().from(cloth.normal_begin), kOrange, lines);
       }
       if ((what & PLEAT_DEBUG_EDGE_LENGTH) && has_folds(static_cast<SurfaceMode>(mode))) {
         draw_folds(world, cloth, lines);

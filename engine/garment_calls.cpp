@@ -1,3 +1,4 @@
+#include <numbers>
 #include <vector>
 
 #include "components/shapes.h"
@@ -22,6 +23,7 @@ const pleat_garment_def& default_garment() {
   static const pleat_garment_def def = [] {
     pleat_garment_def d{};
     d.size = sizeof d;
+    d.crease_angle = std::numbers::pi_v<float>;
     return d;
   }();
   return def;
@@ -218,18 +220,23 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
       }
     }
     const std::vector<std::array<std::uint32_t, 2>> seams = read_seams(def);
+    need_range("crease_angle", def.crease_angle, 0, std::numbers::pi);
 
     const MeshReport found = check_and_repair(positions, triangles);
     write_report(found, report);
     if (!found.fault.empty()) refuse("the mesh cannot be cloth: " + found.fault, PLEAT_ERROR_MESH);
     log_repairs(world, found);
-    const GarmentInput input{
-        positions, triangles, uvs, {def.pins, def.pin_count}, seams, need_masses(def.added_mass, def.vertex_count)};
+    const GarmentInput input{.positions = positions,
+                             .triangles = triangles,
+                             .uvs = uvs,
+                             .pins = {def.pins, def.pin_count},
+                             .seams = seams,
+                             .added_mass = need_masses(def.added_mass, def.vertex_count),
+                             .crease_angle = def.crease_angle};
     Garment built = build_garment(input, &world.memory);
-    if (!seams.empty() &&
-        std::find(built.edge_is_seam.begin(), built.edge_is_seam.end(), 1) == built.edge_is_seam.end()) {
-      world.log(PLEAT_LOG_WARNING,
-                "garment_create: none of the " + std::to_string(seams.size()) + " seams is an edge of the mesh");
+    if (!seams.empty() && built.crease_count == 0) {
+      world.log(PLEAT_LOG_WARNING, "garment_create: none of the " + std::to_string(seams.size()) +
+                                       " seams is an edge between two triangles");
     }
     const Handle added = add_garment(world, std::move(built));
     *garment = {added.index, added.generation};

@@ -51,6 +51,9 @@ constexpr pleat_api kApi = {
     .collider_set = call::collider_set,
     .world_set_gust = call::world_set_gust,
     .fabric_apply = call::fabric_apply,
+    .vertex_target_init = call::vertex_target_init,
+    .cloth_read_indices_16 = call::cloth_read_indices_16,
+    .cloth_suggest_level = call::cloth_suggest_level,
 };
 
 }  // namespace

@@ -147,8 +147,11 @@ typedef struct pleat_garment_def {
   uint32_t uv_stride;
   const uint32_t* pins; /* vertices that follow the host (cloth_move_pins), in this order; or null */
   uint32_t pin_count;
-  const uint32_t* seams;   /* vertex pairs: edges that are seams; or null */
+  /* Seams: edges across which the surface is not smooth, vertex pairs; or null. Each side is curved and shaded by its
+   * own normals, so drawn vertices there come twice, at the same place. The cloth moves as without. */
+  const uint32_t* seams;
   uint32_t seam_count;     /* pairs */
+  float crease_angle;      /* rad; edges bent by more than this at rest are seams too; default pi: none is */
   const float* added_mass; /* kg at each vertex besides the cloth's own: hem weights, buttons, buckles; or null */
 } pleat_garment_def;
 
@@ -208,6 +211,7 @@ typedef struct pleat_cloth_settings {
                              default 0: each edge folds on its own */
   float
       self_distance; /* kept between the cloth's particles and its own faces, m; default 0: it passes through itself */
+  uint32_t tangents; /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -241,12 +245,16 @@ typedef struct pleat_cloth_info {
 #define PLEAT_NO_ATTRIBUTE 0xffffffffu
 /* Where and how drawn vertices are written: an engine's interleaved vertex buffer can be the target. */
 typedef struct pleat_vertex_target {
+  uint32_t size;
   void* data;
   uint32_t stride;          /* bytes from one vertex to the next */
   uint32_t capacity;        /* vertices */
-  uint32_t position_offset; /* bytes to float[3]; PLEAT_NO_ATTRIBUTE leaves one out */
+  uint32_t position_offset; /* bytes to float[3]; PLEAT_NO_ATTRIBUTE, the default of all four, leaves one out */
   uint32_t normal_offset;   /* bytes to float[3], unit length */
   uint32_t uv_offset;       /* bytes to float[2]; zeros when the garment has none */
+  /* Bytes to float[4]: unit and across the normal, where u grows; then 1 or -1, times cross(normal, tangent) is where v
+   * grows. Without uvs it is the direction nearest to the x axis. Only for cloths with settings.tangents = 1. */
+  uint32_t tangent_offset;
 } pleat_vertex_target;
 
 /* ---- colliders ------------------------------------------------------------------------------------------------- */
@@ -392,6 +400,15 @@ typedef struct pleat_api {
   /* Sets density, stiffness and bend_stiffness to a PLEAT_FABRIC_*'s and leaves the rest. They are the material's, not
    * the mesh's: finer triangles of the same shape hang alike. stiffness is sqrt(3)/2 Y, right for equilateral ones. */
   pleat_result (*fabric_apply)(uint32_t fabric, pleat_cloth_settings* settings);
+  pleat_result (*vertex_target_init)(pleat_vertex_target* target, size_t size);
+  /* As cloth_read_indices; refused (PLEAT_ERROR_CAPACITY) when there are more than 65,536 drawn vertices. */
+  pleat_result (*cloth_read_indices_16)(const pleat_world* world, pleat_cloth cloth, uint16_t* indices,
+                                        uint32_t capacity);
+  /* The lowest level 1..8 that keeps the drawn triangles of the present surface within half a pixel of it, if their
+   * sides are 4 pixels or longer on average. pixels_per_metre: at the cloth's distance from the eye. The cloth's own
+   * level stays; a host that follows the suggestion should go down later than up, so that it does not flicker. */
+  pleat_result (*cloth_suggest_level)(const pleat_world* world, pleat_cloth cloth, float pixels_per_metre,
+                                      uint32_t* level);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

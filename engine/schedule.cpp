@@ -48,12 +48,16 @@ void make_room(World& world, const ClothRecord& cloth) {
                     world.runge_kutta.velocity_slope);
   }
   const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
-  if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(particles);
+  std::size_t normals = 0, edges = 0;
+  for (const ClothRecord& other : world.clothes) {
+    normals += padded(other.garment().normal_count);
+    edges += padded(other.garment().edge_count);
+  }
+  if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(normals);
   const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
-  if (folded || world.surface.fold.size() != 0) {
-    std::size_t edges = 0;
-    for (const ClothRecord& other : world.clothes) edges += padded(other.garment().edge_count);
-    resize_together(edges, world.surface.fold, world.surface.fold_height);
+  if (folded || world.surface.fold.size() != 0) resize_together(edges, world.surface.fold, world.surface.fold_height);
+  if ((cloth.settings.tangents != 0 && cloth.pattern() != nullptr) || world.drawn.tangent.size() != 0) {
+    resize_together(world.drawn.position.size(), world.drawn.tangent, world.drawn.handedness);
   }
   const bool relaxed = cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.settings.fold_sweeps > 0;
   if (curved && relaxed && world.fold_scratch.freedom.size() < cloth.garment().edge_count) {
@@ -239,7 +243,7 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
       mass(w.particles.mass.data() + c.particle_begin),
       pin_previous(w.pin_previous.view().from(c.pin_begin)),
       pin_next(w.pin_next.view().from(c.pin_begin)) {
-  if (w.surface.normal.size() != 0) normal = w.surface.normal.view().from(c.particle_begin);
+  if (w.surface.normal.size() != 0) normal = w.surface.normal.view().from(c.normal_begin);
   if (w.surface.fold.size() != 0) {
     fold = w.surface.fold.view().from(c.edge_begin);
     fold_height = w.surface.fold_height.data() + c.edge_begin;
@@ -247,6 +251,10 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
   if (w.drawn.position.size() != 0) {
     drawn_position = w.drawn.position.view().from(c.drawn_begin);
     drawn_normal = w.drawn.normal.view().from(c.drawn_begin);
+  }
+  if (w.drawn.tangent.size() != 0) {
+    drawn_tangent = w.drawn.tangent.view().from(c.drawn_begin);
+    drawn_handedness = w.drawn.handedness.data() + c.drawn_begin;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "engine/schedule_row.h"
 #ifdef PLEAT_WITH_SMOOTHING
 #include "systems/drawn_normals.h"
+#include "systems/drawn_tangents.h"
 #include "systems/edge_length.h"
 #include "systems/fold_relaxation.h"
 #include "systems/particle_normals.h"
@@ -26,6 +27,9 @@ const char* with_folds(const World&, const ClothRecord& c) {
   return c.settings.surface == PLEAT_SURFACE_FLAT ? "flat surface"
          : has_folds(surface_mode(c.settings))    ? kNeeded
                                                   : "surface without folds, edges keep their curve";
+}
+const char* with_tangents(const World&, const ClothRecord& c) {
+  return c.settings.tangents == 0 ? "tangents is 0" : kNeeded;
 }
 
 const char* with_fold_relaxation(const World&, const ClothRecord& c) {
@@ -119,6 +123,15 @@ constexpr Row kRows[] = {
     {Phase::kFrameEnd, "drawn_normals", always,
      [](ClothTick& t) {
        run(DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal});
+     }},
+    {Phase::kFrameEnd, "drawn_tangents", with_tangents,
+     [](ClothTick& t) {
+       run(DrawnTangents{.garment = &t.garment,
+                         .pattern = t.cloth.pattern(),
+                         .position = t.drawn_position,
+                         .normal = t.drawn_normal,
+                         .tangent = t.drawn_tangent,
+                         .handedness = t.drawn_handedness});
      }},
 };
 

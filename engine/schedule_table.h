@@ -27,8 +27,8 @@ struct ClothTick {
   const float* inverse_mass;
   const float* mass;
   ConstVec3View pin_previous, pin_next;
-  Vec3View normal, fold, drawn_position, drawn_normal;  // null where no cloth needs them
-  float* fold_height = nullptr;
+  Vec3View normal, fold, drawn_position, drawn_normal, drawn_tangent;  // null where no cloth needs them
+  float *fold_height = nullptr, *drawn_handedness = nullptr;
 
   ClothTick(World& w, ClothRecord& c);
 };

@@ -47,14 +47,24 @@ void want_pattern(World&, GarmentRecord&, std::uint32_t) {}
 
 std::uint32_t drawn_range(const ClothRecord& cloth) {
   const TessellationPattern* pattern = cloth.pattern();
-  return pattern != nullptr ? range_of(pattern->vertex_count) : 0;
+  return pattern != nullptr ? range_of(pattern->shaded_count()) : 0;
 }
 
 void resize_drawn(World& world, std::size_t size) {
-  world.drawn.position.reserve(size);
-  world.drawn.normal.reserve(size);
-  world.drawn.position.resize(size);
-  world.drawn.normal.resize(size);
+  DrawnColumns& drawn = world.drawn;
+  const bool with_tangents = drawn.tangent.size() != 0;
+  drawn.position.reserve(size);
+  drawn.normal.reserve(size);
+  if (with_tangents) drawn.tangent.reserve(size), drawn.handedness.reserve(size);
+  drawn.position.resize(size);
+  drawn.normal.resize(size);
+  if (with_tangents) drawn.tangent.resize(size), drawn.handedness.resize(size);
+}
+
+/// For columns that only some scenes have, or that had no room for their last cloth yet.
+template <class AnyColumn>
+void erase_if_present(AnyColumn& column, std::size_t begin, std::size_t count) {
+  if (column.size() > begin) column.erase(begin, count);
 }
 
 /// Takes a cloth's drawn vertices out of the columns; the cloths behind it move down.
@@ -62,15 +72,11 @@ void close_drawn_gap(World& world, const ClothRecord& cloth) {
   const std::uint32_t count = drawn_range(cloth);
   world.drawn.position.erase(cloth.drawn_begin, count);
   world.drawn.normal.erase(cloth.drawn_begin, count);
+  erase_if_present(world.drawn.tangent, cloth.drawn_begin, count);
+  erase_if_present(world.drawn.handedness, cloth.drawn_begin, count);
   for (ClothRecord& other : world.clothes) {
     if (other.drawn_begin > cloth.drawn_begin) other.drawn_begin -= count;
   }
-}
-
-/// For columns that only some scenes have, or that had no room for their last cloth yet.
-template <class AnyColumn>
-void erase_if_present(AnyColumn& column, std::size_t begin, std::size_t count) {
-  if (column.size() > begin) column.erase(begin, count);
 }
 
 }  // namespace
@@ -138,7 +144,10 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
   cloth.particle_begin = static_cast<std::uint32_t>(world.particles.mass.size());
   cloth.pin_begin = static_cast<std::uint32_t>(world.pin_next.size());
   cloth.drawn_begin = static_cast<std::uint32_t>(world.drawn.position.size());
-  for (const ClothRecord& other : world.clothes) cloth.edge_begin += range_of(other.garment().edge_count);
+  for (const ClothRecord& other : world.clothes) {
+    cloth.normal_begin += range_of(other.garment().normal_count);
+    cloth.edge_begin += range_of(other.garment().edge_count);
+  }
 
   // Everything that can fail comes first; resizing a column keeps what is in it, so a failure leaves only spare room.
   world.cloth_handles.reserve_one();
@@ -179,7 +188,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   const ClothRecord cloth = world.clothes[position];
   const Garment& g = cloth.garment();
   const std::uint32_t particles = range_of(g.particle_count), pins = range_of(g.pins.size()),
-                      edges = range_of(g.edge_count);
+                      normals = range_of(g.normal_count), edges = range_of(g.edge_count);
   ParticleColumns& p = world.particles;
   for (Vec3Column* column : {&p.position, &p.velocity, &p.force, &p.previous, &p.predicted}) {
     column->erase(cloth.particle_begin, particles);
@@ -187,13 +196,14 @@ void remove_cloth(World& world, std::uint32_t position) {
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
   for (Vec3Column* column : {&world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
-                             &world.runge_kutta.velocity_slope, &world.surface.normal, &world.self.sought_at}) {
+                             &world.runge_kutta.velocity_slope, &world.self.sought_at}) {
     erase_if_present(*column, cloth.particle_begin, particles);
   }
   constexpr std::size_t kPairs = SelfColumns::kPairsPerParticle;
   erase_if_present(world.self.pairs, kPairs * cloth.particle_begin, kPairs * particles);
   world.pin_previous.erase(cloth.pin_begin, pins);
   world.pin_next.erase(cloth.pin_begin, pins);
+  erase_if_present(world.surface.normal, cloth.normal_begin, normals);
   erase_if_present(world.surface.fold, cloth.edge_begin, edges);
   erase_if_present(world.surface.fold_height, cloth.edge_begin, edges);
   close_drawn_gap(world, cloth);
@@ -203,6 +213,7 @@ void remove_cloth(World& world, std::uint32_t position) {
     ClothRecord& later = world.clothes[i];
     later.particle_begin -= particles;
     later.pin_begin -= pins;
+    later.normal_begin -= normals;
     later.edge_begin -= edges;
   }
   --cloth.source->users;
@@ -229,11 +240,12 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   const std::uint64_t particle =
       5 * sizeof(Vec3) + 2 * sizeof(float) + (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
-      (world.surface.normal.size() != 0 ? sizeof(Vec3) : 0) +
       (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(SelfPair) : 0);
+  const std::uint64_t normal = world.surface.normal.size() != 0 ? sizeof(Vec3) : 0;
   const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0;
+  const std::uint64_t drawn = 2 * sizeof(Vec3) + (world.drawn.tangent.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0);
   return sizeof(ClothRecord) + range_of(g.particle_count) * particle + range_of(g.pins.size()) * 2 * sizeof(Vec3) +
-         range_of(g.edge_count) * edge + drawn_range(cloth) * 2 * sizeof(Vec3);
+         range_of(g.normal_count) * normal + range_of(g.edge_count) * edge + drawn_range(cloth) * drawn;
 }
 
 }  // namespace pleat

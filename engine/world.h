@@ -45,7 +45,7 @@ using Plan = std::uint64_t;
 struct ClothRecord {
   GarmentRecord* source = nullptr;
   pleat_cloth_settings settings{};
-  std::uint32_t particle_begin = 0, pin_begin = 0, edge_begin = 0, drawn_begin = 0;
+  std::uint32_t particle_begin = 0, pin_begin = 0, normal_begin = 0, edge_begin = 0, drawn_begin = 0;
   std::uint32_t substeps_taken = 0;
   std::uint32_t self_pair_count = kNone;  // none were sought yet
   Plan plan = 0;

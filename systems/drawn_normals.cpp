@@ -15,7 +15,7 @@ void DrawnNormals::run() const {
   const std::uint32_t vertices = pattern->vertices_per_face;
   const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / vertices);
 
-  clear(normal, pattern->vertex_count);
+  clear(normal, pattern->shaded_count());
   Vec3Block x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];  // a lane is a face
   for (std::uint32_t begin = 0; begin < faces; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, faces - begin);
@@ -35,11 +35,11 @@ void DrawnNormals::run() const {
       }
     }
     for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t* own = drawn + std::size_t{lane} * vertices;
+      const std::uint32_t* own = pattern->shaded_vertices() + (std::size_t{begin} + lane) * vertices;
       for (std::uint32_t v = 0; v < vertices; ++v) normal.add(own[v], n[v][lane]);
     }
   }
-  normalize(normal, pattern->vertex_count);
+  normalize(normal, pattern->shaded_count());
 }
 
 }  // namespace pleat

@@ -19,7 +19,7 @@ namespace pleat {
 ///   n       the quadratic normal of the PN triangle; h > 0
 ///   target  the straight rest length. The two halves are PN curves anew, over a-p' and p'-b
 ///   h       by bisection from eq (6) to 0.1 % of the length, lengths measured as sums of chords
-/// Reads:  garment edges and rest lengths; position (P) m; normal (P) unit
+/// Reads:  garment edges and rest lengths; position (P) m; normal (N) unit
 /// Writes: fold (E) n, unit; fold_height (E) h, m
 /// Cost:   O(E), no allocation. Errors: none; where n is undefined h is 0 (kPleat) or n is an end's normal (kPaper).
 struct EdgeLength {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/base_normal.h"
+#include "components/creases.h"
 #include "components/edge_block.h"
 
 namespace pleat {
@@ -33,7 +34,7 @@ inline std::array<float, 3> force_shares(const Vec3& a, const Vec3& b, const Vec
 template <Weighting weighting>
 void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
-  clear(s.normal, g.particle_count);
+  clear(s.normal, g.normal_count);
   for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - begin);
     Vec3Block x[3], bend[3], sum[3];
@@ -62,10 +63,11 @@ void sum_normals(const ParticleNormals& s) {
       }
     }
     for (std::uint32_t lane = 0; lane < count; ++lane) {
-      for (std::size_t k = 0; k < 3; ++k) s.normal.add(g.face_particle[k][begin + lane], sum[k][lane]);
+      for (std::size_t k = 0; k < 3; ++k) s.normal.add(g.face_normal[k][begin + lane], sum[k][lane]);
     }
   }
-  normalize(s.normal, g.particle_count);
+  complete_normals(g, s.normal);
+  normalize(s.normal, g.normal_count);
 }
 
 /// How much the fold that a short edge will need turns the tangents at its ends: they go along the chord plus or minus

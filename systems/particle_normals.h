@@ -17,7 +17,7 @@ namespace pleat {
 /// cloth waves as closely as its particles lie, flat faces show half of its slope, and the length that their edges
 /// miss shows the rest. Without short edges the normals are the base normals, bit for bit.
 /// Reads:  garment faces, edges and rest lengths; position (P) m
-/// Writes: normal (P) unit; for kPleat fold (E), as scratch
+/// Writes: normal (N) unit, as the garment counts them; for kPleat fold (E), as scratch
 /// Cost:   O(F + E + P), no allocation.
 /// Errors: none; where the faces around cancel, or there is none, the normal is some fixed unit vector.
 struct ParticleNormals {

@@ -34,6 +34,11 @@ PnEdge pn_edge(const Tessellation& s, std::uint32_t e) {
   return {s.position[i], s.position[j], s.normal[i], s.normal[j]};
 }
 
+template <SurfaceMode mode>
+PnEdge curved_edge(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb) {
+  return mode == SurfaceMode::kArcPn ? arc_edge(a, b, na, nb) : PnEdge(a, b, na, nb);
+}
+
 /// kPn, kArcPn, and with folds kPleat: the vertices on edges.
 template <SurfaceMode mode>
 void draw_curved_edges(const Tessellation& s) {
@@ -45,23 +50,35 @@ void draw_curved_edges(const Tessellation& s) {
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t e = begin + std::min(lane, count - 1);
       const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-      a.set(lane, s.position[i]), na.set(lane, s.normal[i]);
-      b.set(lane, s.position[j]), nb.set(lane, s.normal[j]);
+      a.set(lane, s.position[i]), na.set(lane, s.normal[g.edge_normal[0][e]]);
+      b.set(lane, s.position[j]), nb.set(lane, s.normal[g.edge_normal[1][e]]);
       if constexpr (mode == SurfaceMode::kPleat) moved.set(lane, s.fold[e] * s.fold_height[e]);
     }
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
       const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
       const float share = fold_shape(t);
       for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        constexpr bool kArc = mode == SurfaceMode::kArcPn;
-        const PnEdge edge =
-            kArc ? arc_edge(a[lane], b[lane], na[lane], nb[lane]) : PnEdge(a[lane], b[lane], na[lane], nb[lane]);
+        const PnEdge edge = curved_edge<mode>(a[lane], b[lane], na[lane], nb[lane]);
         x.set(lane, edge.point(t) + moved[lane] * share);
       }
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
       }
     }
+  }
+}
+
+/// The sides of face f that are creases bend as the edges do, not as the face's own normals say.
+template <SurfaceMode mode>
+void bend_along_creases(const Tessellation& s, std::uint32_t f, std::uint32_t lane, Vec3Block (&bend)[6]) {
+  const Garment& g = *s.garment;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t e = g.face_edge[k][f];
+    if (!g.edge_is_crease[e]) continue;
+    const std::size_t first = g.edge_particle[0][e] == g.face_particle[k][f] ? 0 : 1, last = 1 - first;
+    const PnEdge side = curved_edge<mode>(s.position[g.edge_particle[first][e]], s.position[g.edge_particle[last][e]],
+                                          s.normal[g.edge_normal[first][e]], s.normal[g.edge_normal[last][e]]);
+    bend[2 * k].set(lane, side.u), bend[2 * k + 1].set(lane, side.v);
   }
 }
 
@@ -78,7 +95,7 @@ void draw_curved_faces(const Tessellation& s) {
       const std::uint32_t f = begin + std::min(lane, count - 1);
       for (std::uint32_t k = 0; k < 3; ++k) {
         corner[k].set(lane, s.position[g.face_particle[k][f]]);
-        normal[k].set(lane, s.normal[g.face_particle[k][f]]);
+        normal[k].set(lane, s.normal[g.face_normal[k][f]]);
         if constexpr (mode == SurfaceMode::kPleat) {
           const std::uint32_t e = g.face_edge[k][f];
           if (s.fold_height[e] == 0.0f) continue;
@@ -92,6 +109,9 @@ void draw_curved_faces(const Tessellation& s) {
       const Vec3 n[3] = {normal[0][lane], normal[1][lane], normal[2][lane]};
       const PnTriangle face = mode == SurfaceMode::kArcPn ? arc_triangle(p, n) : PnTriangle(p, n);
       for (std::size_t i = 0; i < 6; ++i) bend[i].set(lane, face.bend[i]);
+    }
+    if (g.crease_count != 0) {
+      for (std::uint32_t lane = 0; lane < count; ++lane) bend_along_creases<mode>(s, begin + lane, lane, bend);
     }
     for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
       const InnerPoint& q = pattern.inner[i];

@@ -17,7 +17,8 @@ namespace pleat {
 ///           folds is drawn as by kPn, bit for bit
 ///   kPhong, kSpherigon  the flat triangles lifted point by point (components/projected_triangle.h)
 ///   kArcPn  PN triangles with the tangents of circular arcs (components/arc_pn.h)
-/// Reads:  garment faces and edges; pattern; position (P) m; normal (P) unit, not for kFlat; fold (E) unit and
+/// Creases part the slopes of kPn, kPleat and kArcPn; the other modes know them in the shading only.
+/// Reads:  garment faces and edges; pattern; position (P) m; normal (N) unit, not for kFlat; fold (E) unit and
 ///         fold_height (E) m, for kPaper and kPleat only
 /// Writes: drawn_position (V) m
 /// Cost:   O(V), no allocation. Errors: none.

@@ -27,12 +27,13 @@ DrawnSurface make_surface(const Scene& scene, size_t cloth) {
 
 void read_vertices(const Scene& scene, size_t cloth, DrawnSurface& surface) {
   using Vertex = DrawnSurface::Vertex;
-  const pleat_vertex_target target{surface.vertices.data(),
-                                   uint32_t(sizeof(Vertex)),
-                                   uint32_t(surface.vertices.size()),
-                                   uint32_t(offsetof(Vertex, position)),
-                                   uint32_t(offsetof(Vertex, normal)),
-                                   PLEAT_NO_ATTRIBUTE};
+  pleat_vertex_target target;
+  scene.check(scene.api().vertex_target_init(&target, sizeof target), "drawn vertices");
+  target.data = surface.vertices.data();
+  target.stride = uint32_t(sizeof(Vertex));
+  target.capacity = uint32_t(surface.vertices.size());
+  target.position_offset = uint32_t(offsetof(Vertex, position));
+  target.normal_offset = uint32_t(offsetof(Vertex, normal));
   scene.check(scene.api().cloth_read_vertices(scene.world(), scene.cloths()[cloth], &target), "drawn vertices");
 }
 

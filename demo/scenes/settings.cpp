@@ -42,7 +42,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"level", &S::level, kLevelWords},
                               {"inner_friction", &S::inner_friction},
                               {"fold_sweeps", &S::fold_sweeps},
-                              {"self_distance", &S::self_distance}};
+                              {"self_distance", &S::self_distance},
+                              {"tangents", &S::tangents}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

@@ -86,6 +86,7 @@ static void check_drawn(const pleat_api* pleat, pleat_world* world, pleat_cloth 
   vertices = malloc(info.drawn_vertices * sizeof *vertices);
   indices = malloc(info.drawn_triangles * 3 * sizeof *indices);
   CHECK(vertices != NULL && indices != NULL);
+  MUST(pleat->vertex_target_init(&target, sizeof target));
   target.data = vertices;
   target.stride = sizeof(vertex);
   target.capacity = info.drawn_vertices;

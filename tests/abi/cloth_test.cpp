@@ -45,6 +45,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
   refused("surface", &S::surface, 99u);
   refused("level", &S::level, PLEAT_LEVEL_MAX + 1);
   refused("fold_sweeps", &S::fold_sweeps, 65u);
+  refused("tangents", &S::tangents, 2u);
   const std::pair<const char*, float S::*> floats[] = {{"density", &S::density},
                                                        {"stiffness", &S::stiffness},
                                                        {"stretch_limit", &S::stretch_limit},
@@ -116,7 +117,9 @@ TEST_F(Cloth, HandlesThatNameNothingAreRefusedEverywhere) {
   pleat_cloth_info info{};
   float buffer[512];
   std::uint32_t indices[2048];
-  const pleat_vertex_target target{buffer, 12, 40, 0, PLEAT_NO_ATTRIBUTE, PLEAT_NO_ATTRIBUTE};
+  std::uint16_t indices_16[2048];
+  std::uint32_t level = 0;
+  const pleat_vertex_target target = vertex_target(buffer, 40);
   pleat_cloth_def d = def();
   pleat_cloth gone{};
   ASSERT_EQ(api().cloth_create(world, &d, &gone), pleat_result{PLEAT_OK});
@@ -132,6 +135,8 @@ TEST_F(Cloth, HandlesThatNameNothingAreRefusedEverywhere) {
     refused([&] { return api().cloth_write_particles(world, bad, buffer, nullptr, 9); });
     refused([&] { return api().cloth_read_vertices(world, bad, &target); });
     refused([&] { return api().cloth_read_indices(world, bad, indices, 2048); });
+    refused([&] { return api().cloth_read_indices_16(world, bad, indices_16, 2048); });
+    refused([&] { return api().cloth_suggest_level(world, bad, 100.0f, &level); });
   }
 }
 
@@ -155,7 +160,7 @@ TEST_F(Cloth, VertexTargetIsChecked) {
   pleat_cloth_info info{};
   ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
   std::vector<float> buffer(8 * info.drawn_vertices, -9.0f);
-  const pleat_vertex_target good{buffer.data(), 32, info.drawn_vertices, 0, 12, 24};
+  const pleat_vertex_target good = vertex_target(buffer.data(), info.drawn_vertices);
   const auto refused = [&](pleat_result result, const char* field, const pleat_vertex_target& target) {
     const std::vector<float> before = buffer;
     expect_refused(result, field, [&] { return api().cloth_read_vertices(world, cloth, &target); });
@@ -171,6 +176,14 @@ TEST_F(Cloth, VertexTargetIsChecked) {
   refused(PLEAT_ERROR_ARGUMENT, "target.uv_offset", bad);
   bad = good, bad.position_offset = 24;
   refused(PLEAT_ERROR_ARGUMENT, "target.position_offset", bad);
+  bad = good, bad.size = sizeof bad + 1;
+  refused(PLEAT_ERROR_ARGUMENT, "target.size", bad);
+  bad = good, bad.stride = 48, bad.tangent_offset = 36;
+  refused(PLEAT_ERROR_ARGUMENT, "target.tangent_offset", bad);
+  bad = good, bad.stride = 48, bad.tangent_offset = 32;  // the cloth makes none
+  if (api().features & PLEAT_FEATURE_SMOOTHING) refused(PLEAT_ERROR_ARGUMENT, "tangents", bad);
+  bad = good, bad.size = offsetof(pleat_vertex_target, tangent_offset), bad.tangent_offset = 0;  // an older host
+  EXPECT_EQ(api().cloth_read_vertices(world, cloth, &bad), pleat_result{PLEAT_OK});
   bad = good, bad.normal_offset = 0xfffffff0u;
   refused(PLEAT_ERROR_ARGUMENT, "target.normal_offset", bad);
   ASSERT_EQ(api().cloth_read_vertices(world, cloth, &good), pleat_result{PLEAT_OK});
@@ -201,6 +214,108 @@ TEST_F(Cloth, IndicesStayWithinTheDrawnVerticesAtEachLevel) {
     ASSERT_EQ(api().cloth_read_indices(world, cloth, indices.data(), count), pleat_result{PLEAT_OK});
     for (const std::uint32_t i : indices) EXPECT_LT(i, info.drawn_vertices);
   }
+}
+
+TEST_F(Cloth, SixteenBitIndicesAreTheSameOrRefused) {
+  pleat_cloth_info info{};
+  ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
+  const std::uint32_t count = 3 * info.drawn_triangles;
+  std::vector<std::uint32_t> wide(count);
+  std::vector<std::uint16_t> narrow(count);
+  ASSERT_EQ(api().cloth_read_indices(world, cloth, wide.data(), count), pleat_result{PLEAT_OK});
+  ASSERT_EQ(api().cloth_read_indices_16(world, cloth, narrow.data(), count), pleat_result{PLEAT_OK});
+  for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(wide[i], narrow[i]);
+  expect_refused(PLEAT_ERROR_CAPACITY, "capacity",
+                 [&] { return api().cloth_read_indices_16(world, cloth, narrow.data(), count - 1); });
+  expect_refused(PLEAT_ERROR_ARGUMENT, "indices",
+                 [&] { return api().cloth_read_indices_16(world, cloth, nullptr, count); });
+  if (!(api().features & PLEAT_FEATURE_SMOOTHING)) return;
+
+  // A square of n x n particles has (16 (n - 1) + 1)^2 drawn vertices at level 8: 16 do, 17 are too many.
+  for (const std::uint32_t n : {16u, 17u}) {
+    pleat_shape_def shape = made(api().shape_def_init);
+    shape.rows = shape.columns = n;
+    std::vector<float> positions(3 * n * n);
+    std::vector<std::uint32_t> triangles(6 * (n - 1) * (n - 1));
+    ASSERT_EQ(api().shape_build(&shape, positions.data(), triangles.data()), pleat_result{PLEAT_OK});
+    pleat_garment_def garment_def = made(api().garment_def_init);
+    garment_def.positions = positions.data(), garment_def.vertex_count = n * n;
+    garment_def.triangles = triangles.data();
+    garment_def.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+    pleat_cloth_def cloth_def = def();
+    ASSERT_EQ(api().garment_create(world, &garment_def, nullptr, &cloth_def.garment), pleat_result{PLEAT_OK});
+    cloth_def.settings.level = 8;
+    pleat_cloth large{};
+    ASSERT_EQ(api().cloth_create(world, &cloth_def, &large), pleat_result{PLEAT_OK});
+    ASSERT_EQ(api().cloth_info(world, large, &info), pleat_result{PLEAT_OK});
+    EXPECT_EQ(info.drawn_vertices, (16 * n - 15) * (16 * n - 15));
+    narrow.resize(3 * info.drawn_triangles);
+    const auto read = [&] {
+      return api().cloth_read_indices_16(world, large, narrow.data(), static_cast<std::uint32_t>(narrow.size()));
+    };
+    if (n == 16) {
+      EXPECT_EQ(read(), pleat_result{PLEAT_OK});
+    } else {
+      expect_refused(PLEAT_ERROR_CAPACITY, "66049 drawn vertices", read);
+    }
+  }
+}
+
+TEST_F(Cloth, IndexBuffersAreBuiltOncePerLevel) {
+  const auto allocations = [&] {
+    pleat_stats stats{};
+    stats.size = sizeof stats;
+    EXPECT_EQ(api().world_stats(world, &stats), pleat_result{PLEAT_OK});
+    return stats.allocations;
+  };
+  const auto through_all_levels = [&] {
+    pleat_cloth_settings s = settings();
+    for (std::uint32_t level = 0; level <= PLEAT_LEVEL_MAX; ++level) {
+      s.level = level;
+      ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
+    }
+  };
+  through_all_levels();
+  const std::uint64_t before = allocations();
+  through_all_levels();
+  EXPECT_EQ(allocations(), before);
+}
+
+TEST_F(Cloth, TangentsAreWrittenWhereAsked) {
+  if (!(api().features & PLEAT_FEATURE_SMOOTHING)) GTEST_SKIP() << "smoothing is compiled out";
+  pleat_cloth_settings s = settings();
+  s.tangents = 1;
+  ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
+  pleat_cloth_info info{};
+  ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
+  std::vector<float> buffer(12 * info.drawn_vertices);
+  pleat_vertex_target target = vertex_target(buffer.data(), info.drawn_vertices);
+  target.stride = 48, target.tangent_offset = 32;
+  ASSERT_EQ(api().cloth_read_vertices(world, cloth, &target), pleat_result{PLEAT_OK});
+  for (std::size_t i = 0; i < info.drawn_vertices; ++i) {
+    const float *n = &buffer[12 * i + 3], *t = &buffer[12 * i + 8];
+    EXPECT_GT(t[0], 0.9f);  // u runs along x, and the square has hardly moved
+    EXPECT_NEAR(t[0] * n[0] + t[1] * n[1] + t[2] * n[2], 0.0f, 1e-5f);
+    EXPECT_EQ(t[3], -1.0f);  // u x v = x cross z points down, the normal up
+  }
+}
+
+TEST_F(Cloth, SuggestedLevelIsChecked) {
+  std::uint32_t level = 99;
+  for (const float value : {0.0f, -1.0f, kNan, kInfinity}) {
+    expect_refused(PLEAT_ERROR_ARGUMENT, "pixels_per_metre",
+                   [&] { return api().cloth_suggest_level(world, cloth, value, &level); });
+  }
+  expect_refused(PLEAT_ERROR_ARGUMENT, "level",
+                 [&] { return api().cloth_suggest_level(world, cloth, 100.0f, nullptr); });
+  EXPECT_EQ(level, 99u);
+  ASSERT_EQ(api().cloth_suggest_level(world, cloth, 1e-3f, &level), pleat_result{PLEAT_OK});
+  EXPECT_EQ(level, 1u);
+  pleat_cloth_settings s = settings();
+  s.surface = PLEAT_SURFACE_FLAT;
+  ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
+  ASSERT_EQ(api().cloth_suggest_level(world, cloth, 1e6f, &level), pleat_result{PLEAT_OK});
+  EXPECT_EQ(level, 1u);
 }
 
 TEST_F(Cloth, WithoutSmoothingACurvedSurfaceIsNamed) {

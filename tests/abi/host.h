@@ -43,10 +43,18 @@ Def made(pleat_result (*init)(Def*, std::size_t)) {
   return def;
 }
 
+/// Interleaved position, normal, uv: 32 bytes a vertex.
+inline pleat_vertex_target vertex_target(void* data, std::uint32_t capacity) {
+  pleat_vertex_target target = made(api().vertex_target_init);
+  target.data = data, target.stride = 32, target.capacity = capacity;
+  target.position_offset = 0, target.normal_offset = 12, target.uv_offset = 24;
+  return target;
+}
+
 /// A square of 3 x 3 vertices, two of them pinned: a valid garment to start from.
 struct Square {
   std::vector<float> positions = std::vector<float>(27), uvs = std::vector<float>(18);
-  std::vector<std::uint32_t> triangles = std::vector<std::uint32_t>(24), pins{0, 2}, seams{0, 1};
+  std::vector<std::uint32_t> triangles = std::vector<std::uint32_t>(24), pins{0, 2}, seams{1, 4};
 
   Square() {
     pleat_shape_def shape = made(api().shape_def_init);
@@ -96,12 +104,13 @@ class Host : public testing::Test {
     EXPECT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
     std::vector<float> all(6 * 9 + 8 * info.drawn_vertices);
     EXPECT_EQ(api().cloth_read_particles(world, cloth, all.data(), all.data() + 27, 9), pleat_result{PLEAT_OK});
-    const pleat_vertex_target target{all.data() + 54, 32, info.drawn_vertices, 0, 12, 24};
+    const pleat_vertex_target target = vertex_target(all.data() + 54, info.drawn_vertices);
     EXPECT_EQ(api().cloth_read_vertices(world, cloth, &target), pleat_result{PLEAT_OK});
     pleat_cloth_settings s{};
     s.size = sizeof s;
     EXPECT_EQ(api().cloth_get(world, cloth, &s), pleat_result{PLEAT_OK});
-    for (const std::uint32_t value : {s.integrator, s.substeps, s.sweeps, s.face_response, s.surface, s.level}) {
+    for (const std::uint32_t value :
+         {s.integrator, s.substeps, s.sweeps, s.face_response, s.surface, s.level, s.tangents}) {
       all.push_back(static_cast<float>(value));
     }
     all.insert(all.end(),

@@ -204,10 +204,10 @@ TEST(Garment, PinsKeepTheHostsOrder) {
 }
 
 TEST(Garment, SeamsAreMarkedInEitherDirection) {
-  const std::array<std::uint32_t, 2> seams[] = {{1, 0}, {3, 4}, {0, 8}};  // the last is no edge
+  const std::array<std::uint32_t, 2> seams[] = {{4, 1}, {3, 4}, {0, 8}, {0, 1}};  // no edge, and one on the border
   const Garment g = garment_of(make_grid({.rows = 3, .columns = 3}), {}, seams);
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
-    EXPECT_EQ(g.edge_is_seam[e] != 0, e == find_edge(g, 0, 1) || e == find_edge(g, 3, 4)) << e;
+    EXPECT_EQ(g.edge_is_crease[e] != 0, e == find_edge(g, 1, 4) || e == find_edge(g, 3, 4)) << e;
   }
 }
 

@@ -100,7 +100,10 @@ class Scene {
   std::vector<float> vertices(pleat_cloth cloth) {
     const std::uint32_t n = info(cloth).drawn_vertices;
     std::vector<float> drawn(8 * n);
-    const pleat_vertex_target target{drawn.data(), 32, n, 0, 12, 24};
+    pleat_vertex_target target{};
+    must(call::vertex_target_init(&target, sizeof target));
+    target.data = drawn.data(), target.stride = 32, target.capacity = n;
+    target.position_offset = 0, target.normal_offset = 12, target.uv_offset = 24;
     must(call::cloth_read_vertices(world_, cloth, &target));
     return drawn;
   }

@@ -66,6 +66,7 @@ struct Edges {
     const std::uint32_t e = garment.edge_count++, i = 2 * e, j = i + 1;
     garment.particle_count = j + 1;
     garment.edge_particle[0].push_back(i), garment.edge_particle[1].push_back(j);
+    garment.edge_normal[0].push_back(i), garment.edge_normal[1].push_back(j);
     garment.edge_rest_length.push_back(rest_length), garment.edge_rest_curve_length.push_back(rest_length);
     position.resize(j + 1), normal.resize(j + 1), fold.resize(e + 1), height.resize(e + 1);
     position.view().set(i, a), position.view().set(j, b);

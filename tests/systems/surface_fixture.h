@@ -14,9 +14,8 @@
 
 namespace pleat {
 
-inline Garment garment_of(const Mesh& mesh) {
-  return build_garment({.positions = mesh.positions, .triangles = mesh.triangles, .uvs = {}, .pins = {}, .seams = {}},
-                       std::pmr::get_default_resource());
+inline Garment garment_of(const Mesh& mesh, float crease_angle = 4.0f, std::span<const float> uvs = {}) {
+  return build_garment({mesh.positions, mesh.triangles, uvs, {}, {}, crease_angle}, std::pmr::get_default_resource());
 }
 
 /// The skirt of the paper's size: 66 particles, 108 triangles.
@@ -39,9 +38,9 @@ struct Surface {
   Column<float> fold_height;
   SurfaceMode mode = SurfaceMode::kPleat;
 
-  explicit Surface(const Mesh& mesh, std::uint32_t level = 0,
-                   std::pmr::memory_resource* m = std::pmr::get_default_resource())
-      : garment(garment_of(mesh)),
+  explicit Surface(const Mesh& mesh, std::uint32_t level = 0) : Surface(garment_of(mesh), level) {}
+  Surface(Garment&& cut, std::uint32_t level, std::pmr::memory_resource* m = std::pmr::get_default_resource())
+      : garment(std::move(cut)),
         pattern(build_tessellation(garment, level, m)),
         position(m),
         normal(m),
@@ -50,11 +49,11 @@ struct Surface {
         drawn_normal(m),
         fold_height(m) {
     position.resize(garment.particle_count);
-    normal.resize(garment.particle_count);
+    normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
     fold_height.resize(garment.edge_count);
     drawn.resize(pattern.vertex_count);
-    drawn_normal.resize(pattern.vertex_count);
+    drawn_normal.resize(pattern.shaded_count());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
   }
 

@@ -54,10 +54,12 @@ TEST(Tessellation, GoesThroughTheParticles) {
   }
 }
 
-TEST(Tessellation, EdgeVerticesDependOnTheEdgeAlone) {
+class TessellationLevel : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(TessellationLevel, EdgeVerticesDependOnTheEdgeAlone) {
   // Each face cut out and drawn on its own gives the same bits along its sides: neighbours cannot come apart.
   for (const SurfaceMode mode : kModes) {
-    Surface s = crumpled(mode);
+    Surface s = crumpled(mode, GetParam());
     for (std::uint32_t f = 0; f < s.garment.face_count; ++f) {
       std::array<std::uint32_t, 3> p{s.garment.face_particle[0][f], s.garment.face_particle[1][f],
                                      s.garment.face_particle[2][f]};
@@ -65,7 +67,7 @@ TEST(Tessellation, EdgeVerticesDependOnTheEdgeAlone) {
       Mesh one;
       for (const std::uint32_t i : p) one.positions.push_back(s.garment.rest_position.view()[i]);
       one.triangles.push_back({0, 1, 2});
-      Surface cut(one);
+      Surface cut(one, GetParam());
       cut.mode = mode;
       for (std::uint32_t i = 0; i < 3; ++i) {
         cut.position.view().set(i, s.position.view()[p[i]]);
@@ -89,6 +91,8 @@ TEST(Tessellation, EdgeVerticesDependOnTheEdgeAlone) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(All, TessellationLevel, testing::Range(0u, 9u));
 
 TEST(Tessellation, PleatIsPnOnFacesWithoutFolds) {
   Surface pleat(skirt(), 2);
