@@ -32,7 +32,7 @@ Mesh flat_mesh(std::span<const float> positions, std::span<const uint32_t> trian
 }
 
 Capsule capsule_at(const CapsulePose& pose, const Eigen::Vector3f& origin) {
-  return {pose.a + origin, pose.b + origin, pose.radius, kBody};
+  return {pose.a + origin, pose.b + origin, pose.radius, kBody, pose.taper};
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Eigen::AlignedBox3d cloth_box(const Scene& scene) {
 View::View(const Scene& scene, const Eigen::AlignedBox3d& box, float aspect) {
   camera_ = frame_box(box.cast<float>(), scene.def().view.cast<float>(), kFieldOfView, aspect);
   for (const FixedBody& body : scene.def().fixed) {
-    if (const auto* shape = std::get_if<TriangleMesh>(&body.shape)) {
+    if (const TriangleMesh* shape = body.outline()) {
       Mesh mesh = flat_mesh(shape->positions, shape->triangles);
       mesh.front = mesh.back = kBody;
       fixed_.push_back(std::move(mesh));

@@ -10,10 +10,11 @@
 
 namespace pleat::demo {
 
-/// All points within `radius` of the segment ab. World space, metres.
+/// All points within `radius` of the segment ab; a tapered one is the hull of its end balls. World space, metres.
 struct CapsulePose {
   Eigen::Vector3f a, b;
   float radius;
+  float taper = 0.0f;  ///< what the ball about b has more, less than the length of ab
 };
 
 /// A point that moves with a joint, in the joint's frame, m.

@@ -1,5 +1,6 @@
 #include "demo/picture/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -63,8 +64,9 @@ Eigen::AlignedBox3f bounds(const Frame& frame) {
   }
   for (const Capsule& capsule : frame.capsules) {
     for (const Eigen::Vector3f& end : {capsule.a, capsule.b}) {
-      box.extend((end.array() - capsule.radius).matrix());
-      box.extend((end.array() + capsule.radius).matrix());
+      const float radius = capsule.radius + std::max(capsule.taper, 0.0f);
+      box.extend((end.array() - radius).matrix());
+      box.extend((end.array() + radius).matrix());
     }
   }
   return box;

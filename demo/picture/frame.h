@@ -21,11 +21,12 @@ struct Mesh {
   std::uint32_t wire = 0;  // colour of the triangles' edges; alpha 0: none
 };
 
-/// All points within `radius` of the segment ab.
+/// All points within `radius` of the segment ab; a tapered one is the hull of its end balls.
 struct Capsule {
   Eigen::Vector3f a, b;  // m
   float radius;          // m
   std::uint32_t rgba = 0xc9c3baff;
+  float taper = 0.0f;  // what the ball about b has more, m
 };
 
 /// A straight line, `width` pixels thick at any distance, unlit. Drawn a touch nearer than it is, so that it stays

@@ -6,7 +6,7 @@
 
 namespace pleat::demo {
 
-// Rings of vertices from pole a to pole b: a half sphere at each end, the wall between the two equators.
+// Rings of vertices from pole a to pole b: a cap at each end, between them the wall, square to which both caps end.
 Mesh capsule_mesh(const Capsule& capsule) {
   constexpr std::uint32_t kSides = 24;
   constexpr std::uint32_t kRings = 7;  // of a half sphere, pole and equator included
@@ -15,17 +15,20 @@ Mesh capsule_mesh(const Capsule& capsule) {
   const Eigen::Vector3f axis = core.norm() > 1e-9f ? core.normalized() : Eigen::Vector3f::UnitY();
   const Eigen::Vector3f side = axis.unitOrthogonal();
   const Eigen::Vector3f front = axis.cross(side);
+  const float lean = core.norm() > std::abs(capsule.taper) ? std::asin(-capsule.taper / core.norm()) : 0.0f;
 
   Mesh mesh;
   mesh.front = mesh.back = capsule.rgba;
   for (std::uint32_t ring = 0; ring < 2 * kRings; ++ring) {
     const bool at_a = ring < kRings;
-    const float latitude = kPi / 2 * (static_cast<float>(at_a ? ring : ring - 1) / (kRings - 1) - 1);
+    const float share = static_cast<float>(at_a ? ring : ring - kRings) / (kRings - 1);
+    const float latitude = at_a ? lean - (kPi / 2 + lean) * (1 - share) : lean + (kPi / 2 - lean) * share;
     for (std::uint32_t i = 0; i < kSides; ++i) {
       const float angle = 2 * kPi * static_cast<float>(i) / kSides;
       const Eigen::Vector3f normal =
           std::sin(latitude) * axis + std::cos(latitude) * (std::cos(angle) * side + std::sin(angle) * front);
-      const Eigen::Vector3f position = (at_a ? capsule.a : capsule.b) + capsule.radius * normal;
+      const Eigen::Vector3f position =
+          (at_a ? capsule.a : capsule.b) + (at_a ? capsule.radius : capsule.radius + capsule.taper) * normal;
       mesh.vertices.insert(mesh.vertices.end(), position.begin(), position.end());
       mesh.vertices.insert(mesh.vertices.end(), normal.begin(), normal.end());
     }

@@ -32,6 +32,25 @@ bool segment_pierces(const Vector3d& p, const Vector3d& q, const Triangle& t) {
          normal.dot((t.a - t.c).cross(x - t.c)) >= 0.0;
 }
 
+/// Of a tapered capsule: the least over its balls of what `core_distance` says of a ball's center, less the ball's
+/// radius. Both are convex along the core.
+template <class CoreDistance>
+double least_over_balls(const ExactCapsule& capsule, const CoreDistance& core_distance) {
+  const auto distance = [&](double t) {
+    return core_distance(capsule.a + t * (capsule.b - capsule.a)) - capsule.radius - capsule.taper * t;
+  };
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double s = (2.0 * low + high) / 3.0, t = (low + 2.0 * high) / 3.0;
+    if (distance(s) < distance(t)) {
+      high = t;
+    } else {
+      low = s;
+    }
+  }
+  return std::min({distance(0.0), distance(0.5 * (low + high)), distance(1.0)});
+}
+
 }  // namespace
 
 Vector3d nearest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
@@ -59,10 +78,15 @@ Vector3d nearest_on_triangle(const Vector3d& p, const Triangle& t) {
 }
 
 double signed_distance(const Vector3d& p, const ExactCapsule& capsule) {
+  if (capsule.taper != 0.0) return least_over_balls(capsule, [&](const Vector3d& ball) { return (p - ball).norm(); });
   return (p - nearest_on_segment(p, capsule.a, capsule.b)).norm() - capsule.radius;
 }
 
 double signed_distance(const Triangle& t, const ExactCapsule& capsule) {
+  if (capsule.taper != 0.0) {
+    return least_over_balls(capsule,
+                            [&](const Vector3d& ball) { return (ball - nearest_on_triangle(ball, t)).norm(); });
+  }
   const Vector3d &a = capsule.a, &b = capsule.b;
   if (segment_pierces(a, b, t)) return -capsule.radius;
   const double core = std::min({(a - nearest_on_triangle(a, t)).norm(), (b - nearest_on_triangle(b, t)).norm(),

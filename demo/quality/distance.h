@@ -6,10 +6,12 @@ namespace pleat::demo {
 
 using Eigen::Vector3d;
 
-/// All points within `radius` of the segment ab; a = b is a sphere. Metres, world space.
+/// All points within `radius` of the segment ab; a = b is a sphere. A tapered one is the hull of its end balls. Metres,
+/// world space.
 struct ExactCapsule {
   Vector3d a, b;
   double radius;
+  double taper = 0.0;  ///< what the ball about b has more
 };
 
 struct Triangle {
@@ -25,8 +27,8 @@ Vector3d nearest_on_triangle(const Vector3d& p, const Triangle& triangle);
 /// Distance from p to the capsule's surface, m; negative inside.
 double signed_distance(const Vector3d& p, const ExactCapsule& capsule);
 
-/// The least signed distance of any point of the triangle to the capsule, m; exact. A triangle that the capsule's core
-/// pierces is at -radius.
+/// The least signed distance of any point of the triangle to the capsule, m; exact. A triangle that the core of a
+/// capsule pierces is at -radius.
 double signed_distance(const Triangle& triangle, const ExactCapsule& capsule);
 
 }  // namespace pleat::demo

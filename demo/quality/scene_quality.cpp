@@ -8,7 +8,7 @@ namespace {
 constexpr double kHold = 5.0, kWatch = 1.0;  // s
 
 ExactCapsule exact(const CapsulePose& capsule, const Eigen::Vector3d& origin) {
-  return {capsule.a.cast<double>() + origin, capsule.b.cast<double>() + origin, capsule.radius};
+  return {capsule.a.cast<double>() + origin, capsule.b.cast<double>() + origin, capsule.radius, capsule.taper};
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ SceneQuality::SceneQuality(const Scene& scene) {
     if (const auto* capsule = std::get_if<CapsulePose>(&body.shape)) {
       fixed_.capsules.push_back(exact(*capsule, Eigen::Vector3d::Zero()));
     } else {
-      const auto& shape = std::get<TriangleMesh>(body.shape);
+      const TriangleMesh& shape = *body.outline();
       fixed_.meshes.push_back(std::make_shared<SolidMesh>(shape.positions, shape.triangles));
     }
   }

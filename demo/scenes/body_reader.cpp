@@ -1,7 +1,11 @@
 #include "demo/scenes/body_reader.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "demo/input_error.h"
 #include "demo/motion/bvh.h"
+#include "demo/scenes/hull.h"
 #include "demo/scenes/icosphere.h"
 
 namespace pleat::demo {
@@ -10,6 +14,52 @@ namespace {
 Eigen::Vector3f read_point(const JsonValue& value) { return value.vector().cast<float>(); }
 
 double read_radius(const JsonValue& shape) { return shape.at("radius").number(1e-4, 1e3); }
+
+CapsulePose read_tapered_capsule(const JsonValue& shape) {
+  shape.allow_keys({"a", "b", "radius", "radius_b"});
+  const double radius = read_radius(shape), taper = shape.at("radius_b").number(1e-4, 1e3) - radius;
+  const CapsulePose capsule{read_point(shape.at("a")), read_point(shape.at("b")), float(radius), float(taper)};
+  if ((capsule.b - capsule.a).norm() <= std::abs(capsule.taper)) shape.fail("one end holds the other: use a sphere");
+  return capsule;
+}
+
+constexpr float kSlab = 3.0f;  // m, half the width of what is shown of a plane
+
+RigidBody read_plane(const JsonValue& shape) {
+  shape.allow_keys({"point", "normal"});
+  const Eigen::Vector3f normal = read_point(shape.at("normal"));
+  if (!(normal.norm() > 1e-6f)) shape.at("normal").fail("should not be zero");
+  RigidBody plane{.kind = PLEAT_COLLIDER_PLANE, .position = read_point(shape.at("point"))};
+  plane.rotation = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), normal);
+  plane.outline = make_hull(box_corners({0.0f, -0.5f, 0.0f}, {kSlab, 0.5f, kSlab}), plane.position, plane.rotation);
+  return plane;
+}
+
+RigidBody read_box(const JsonValue& shape) {
+  shape.allow_keys({"center", "size", "axis", "degrees"});
+  RigidBody box{.kind = PLEAT_COLLIDER_BOX, .position = read_point(shape.at("center"))};
+  box.half_extents = 0.5f * shape.at("size").vector(1e-3, 1e3).cast<float>();
+  if (const auto degrees = shape.find("degrees")) {
+    const Eigen::Vector3f axis = read_point(shape.at("axis"));
+    if (!(axis.norm() > 1e-6f)) shape.at("axis").fail("should not be zero");
+    box.rotation = Eigen::AngleAxisf(float(degrees->number(-360.0, 360.0)) * std::numbers::pi_v<float> / 180.0f,
+                                     axis.normalized());
+  }
+  box.outline = make_hull(box_corners(Eigen::Vector3f::Zero(), box.half_extents), box.position, box.rotation);
+  return box;
+}
+
+RigidBody read_hull(const JsonValue& shape) {
+  shape.allow_keys({"points"});
+  RigidBody hull{.kind = PLEAT_COLLIDER_HULL};
+  std::vector<Eigen::Vector3f> points;
+  for (const JsonValue& point : shape.at("points").items()) points.push_back(read_point(point));
+  if (points.size() < 4 || points.size() > 64) shape.at("points").fail("should have 4 to 64 points");
+  for (const Eigen::Vector3f& p : points) hull.points.insert(hull.points.end(), p.begin(), p.end());
+  hull.outline = make_hull(points, hull.position, hull.rotation);
+  if (hull.outline.triangles.empty()) shape.at("points").fail("lie in a plane");
+  return hull;
+}
 
 void drop_frames(Clip& clip, size_t dropped) {
   clip.frames.erase(clip.frames.begin(), clip.frames.begin() + ptrdiff_t(dropped * clip.skeleton.channel_count));
@@ -69,11 +119,14 @@ MotionDef read_sequence(const JsonValue& sequence, const SceneFile& file) {
 }  // namespace
 
 FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
-  body.allow_keys({"sphere", "capsule", "icosphere", "obj", "friction"});
-  const std::string kind = body.one_of({"sphere", "capsule", "icosphere", "obj"});
+  body.allow_keys(
+      {"sphere", "capsule", "tapered_capsule", "plane", "box", "hull", "icosphere", "obj", "friction", "thickness"});
+  const std::string kind =
+      body.one_of({"sphere", "capsule", "tapered_capsule", "plane", "box", "hull", "icosphere", "obj"});
   const JsonValue shape = body.at(kind);
   FixedBody fixed;
-  if (const auto friction = body.find("friction")) fixed.friction = float(friction->number(0.0, 100.0));
+  if (const auto friction = body.find("friction")) fixed.friction = float(friction->number(0.0, 10.0));
+  if (const auto thickness = body.find("thickness")) fixed.thickness = float(thickness->number(0.0, 1.0));
   if (kind == "sphere") {
     shape.allow_keys({"center", "radius"});
     const Eigen::Vector3f center = read_point(shape.at("center"));
@@ -81,6 +134,14 @@ FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
   } else if (kind == "capsule") {
     shape.allow_keys({"a", "b", "radius"});
     fixed.shape = CapsulePose{read_point(shape.at("a")), read_point(shape.at("b")), float(read_radius(shape))};
+  } else if (kind == "tapered_capsule") {
+    fixed.shape = read_tapered_capsule(shape);
+  } else if (kind == "plane") {
+    fixed.shape = read_plane(shape);
+  } else if (kind == "box") {
+    fixed.shape = read_box(shape);
+  } else if (kind == "hull") {
+    fixed.shape = read_hull(shape);
   } else if (kind == "icosphere") {
     shape.allow_keys({"level", "center", "radius"});
     fixed.shape = make_icosphere(shape.at("level").integer(0, 6), shape.at("center").vector(), read_radius(shape));

@@ -14,6 +14,31 @@ void copy(const Eigen::Vector3f& from, float (&to)[3]) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
 }
 
+void describe(const CapsulePose& capsule, const Eigen::Vector3f& origin, pleat_collider_def& def) {
+  def.shape = capsule.taper == 0.0f ? PLEAT_COLLIDER_CAPSULE : PLEAT_COLLIDER_TAPERED_CAPSULE;
+  copy(capsule.a + origin, def.a);
+  copy(capsule.b + origin, def.b);
+  def.radius = capsule.radius;
+  def.radius_b = capsule.radius + capsule.taper;
+}
+
+void describe(const TriangleMesh& mesh, pleat_collider_def& def) {
+  def.shape = PLEAT_COLLIDER_MESH;
+  def.positions = mesh.positions.data();
+  def.vertex_count = uint32_t(mesh.vertex_count());
+  def.triangles = mesh.triangles.data();
+  def.triangle_count = uint32_t(mesh.triangle_count());
+}
+
+void describe(const RigidBody& rigid, pleat_collider_def& def) {
+  def.shape = rigid.kind;
+  copy(rigid.position, def.position);
+  for (Eigen::Index k = 0; k < 4; ++k) def.rotation[k] = rigid.rotation.coeffs()[k];  // x, y, z, w
+  copy(rigid.half_extents, def.half_extents);
+  def.positions = rigid.points.data();
+  def.vertex_count = uint32_t(rigid.points.size() / 3);
+}
+
 /// All points of `positions` (N,3) moved by `offset`.
 void move_points(std::span<const float> positions, const Eigen::Vector3d& offset, std::vector<float>& moved) {
   moved.resize(positions.size());
@@ -91,23 +116,22 @@ void Scene::create_copies() {
     def.positions = moved_.data();
     check(api_.cloth_create(world_, &def, &cloths_.emplace_back()), "cloth");
     for (size_t part = 0; part < body_.touching; ++part) {
-      body_parts_.push_back(create_capsule(body_.capsules[part], origin.cast<float>(), 1.0f));
+      pleat_collider_def part_def;
+      api_.collider_def_init(&part_def, sizeof part_def);
+      describe(body_.capsules[part], origin.cast<float>(), part_def);
+      body_parts_.push_back(create_collider(part_def));
     }
     if (def_.body.positions.empty()) continue;
     TriangleMesh body = def_.body;
     move_points(def_.body.positions, origin, body.positions);
-    meshes_.push_back(create_mesh(body, 1.0f));
+    pleat_collider_def body_def;
+    api_.collider_def_init(&body_def, sizeof body_def);
+    describe(body, body_def);
+    meshes_.push_back(create_collider(body_def));
   }
 }
 
-pleat_collider Scene::create_capsule(const CapsulePose& capsule, const Eigen::Vector3f& origin, float friction) {
-  pleat_collider_def def;
-  api_.collider_def_init(&def, sizeof def);
-  def.shape = PLEAT_COLLIDER_CAPSULE;
-  copy(capsule.a + origin, def.a);
-  copy(capsule.b + origin, def.b);
-  def.radius = capsule.radius;
-  def.friction = friction;
+pleat_collider Scene::create_collider(const pleat_collider_def& def) {
   pleat_collider collider;
   check(api_.collider_create(world_, &def, &collider), "collider");
   return collider;
@@ -115,26 +139,19 @@ pleat_collider Scene::create_capsule(const CapsulePose& capsule, const Eigen::Ve
 
 void Scene::create_fixed_bodies() {
   for (const FixedBody& body : def_.fixed) {
+    pleat_collider_def def;
+    api_.collider_def_init(&def, sizeof def);
+    def.friction = body.friction;
+    def.thickness = body.thickness;
     if (const auto* capsule = std::get_if<CapsulePose>(&body.shape)) {
-      create_capsule(*capsule, Eigen::Vector3f::Zero(), body.friction);
-      continue;
+      describe(*capsule, Eigen::Vector3f::Zero(), def);
+    } else if (const auto* mesh = std::get_if<TriangleMesh>(&body.shape)) {
+      describe(*mesh, def);
+    } else {
+      describe(std::get<RigidBody>(body.shape), def);
     }
-    create_mesh(std::get<TriangleMesh>(body.shape), body.friction);
+    create_collider(def);
   }
-}
-
-pleat_collider Scene::create_mesh(const TriangleMesh& mesh, float friction) {
-  pleat_collider_def def;
-  api_.collider_def_init(&def, sizeof def);
-  def.shape = PLEAT_COLLIDER_MESH;
-  def.positions = mesh.positions.data();
-  def.vertex_count = uint32_t(mesh.vertex_count());
-  def.triangles = mesh.triangles.data();
-  def.triangle_count = uint32_t(mesh.triangle_count());
-  def.friction = friction;
-  pleat_collider collider;
-  check(api_.collider_create(world_, &def, &collider), "collider");
-  return collider;
 }
 
 /// Pins keep their place in the hips frame.

@@ -46,8 +46,7 @@ class Scene {
   void create_garment();
   void create_copies();
   void create_fixed_bodies();
-  pleat_collider create_capsule(const CapsulePose& capsule, const Eigen::Vector3f& origin, float friction);
-  pleat_collider create_mesh(const TriangleMesh& mesh, float friction);
+  pleat_collider create_collider(const pleat_collider_def& def);
   void place_pins();
   static void keep_log(uint32_t level, const char* line, void* user);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,10 +12,27 @@
 
 namespace pleat::demo {
 
+/// A plane, a box or a hull.
+struct RigidBody {
+  uint32_t kind;  ///< PLEAT_COLLIDER_PLANE, PLEAT_COLLIDER_BOX or PLEAT_COLLIDER_HULL
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();
+  Eigen::Vector3f half_extents = Eigen::Vector3f::Zero();  ///< of a box
+  std::vector<float> points{};                             ///< (N,3) of a hull
+  TriangleMesh outline{};                                  ///< to draw and to measure; of a plane, a slab below it
+};
+
 /// A body that never moves. World space.
 struct FixedBody {
-  std::variant<CapsulePose, TriangleMesh> shape;
-  float friction = 1.0f;  ///< multiplied by the cloth's
+  std::variant<CapsulePose, TriangleMesh, RigidBody> shape;
+  float friction = 1.0f;   ///< multiplied by the cloth's
+  float thickness = 0.0f;  ///< kept from it besides the cloth's
+
+  /// Null for a capsule.
+  const TriangleMesh* outline() const {
+    if (const auto* rigid = std::get_if<RigidBody>(&shape)) return &rigid->outline;
+    return std::get_if<TriangleMesh>(&shape);
+  }
 };
 
 /// Everything a scene is made of, read and checked: what a Scene is started from. Metres, seconds, world space.
