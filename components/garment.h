@@ -71,8 +71,8 @@ struct GarmentInput {
   std::span<const float> uvs;           // 2 a vertex, or empty
   std::span<const std::uint32_t> pins;  // distinct, < positions.size()
   std::span<const std::array<std::uint32_t, 2>> seams;
-  std::span<const float> added_mass = {};          // kg a particle, or empty: none
   float crease_angle = std::numbers::pi_v<float>;  // rad; components/creases.h
+  std::span<const float> added_mass = {};          // kg a particle, or empty: none
 };
 
 /// Builds the asset. Throws std::bad_alloc; the input must satisfy the notes above.

@@ -28,7 +28,6 @@ const pleat_cloth_def& default_cloth() {
                   .level = PLEAT_LEVEL_FAN,
                   .lift_coefficient = 0.0f,
                   .inner_friction = 0.05f,
-                  .inner_friction = 0.05f,
                   .fold_sweeps = 0,
                   .self_distance = 0.0f,
                   .tangents = 0};

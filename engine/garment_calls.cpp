@@ -231,8 +231,8 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
                              .uvs = uvs,
                              .pins = {def.pins, def.pin_count},
                              .seams = seams,
-                             .added_mass = need_masses(def.added_mass, def.vertex_count),
-                             .crease_angle = def.crease_angle};
+                             .crease_angle = def.crease_angle,
+                             .added_mass = need_masses(def.added_mass, def.vertex_count)};
     Garment built = build_garment(input, &world.memory);
     if (!seams.empty() && built.crease_count == 0) {
       world.log(PLEAT_LOG_WARNING, "garment_create: none of the " + std::to_string(seams.size()) +

@@ -206,12 +206,11 @@ typedef struct pleat_cloth_settings {
   uint32_t surface;       /* default PLEAT_SURFACE_PLEAT */
   uint32_t level;         /* default PLEAT_LEVEL_FAN */
   float lift_coefficient; /* C_l: what air that passes a face at a slant adds to its drag, normal to it; default 0 */
-  float inner_friction;   /* how threads that rub slow all motion, m/s2; default 0.05. It ends small swings */
+  float inner_friction;   /* how threads that rub slow motion against the pins, m/s2; default 0.05: ends small swings */
   uint32_t fold_sweeps;   /* steps in which the folds of PLEAT_SURFACE_PLEAT settle against each other; at most 64,
                              default 0: each edge folds on its own */
-  float
-      self_distance; /* kept between the cloth's particles and its own faces, m; default 0: it passes through itself */
-  uint32_t tangents; /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
+  float self_distance;    /* kept between particles and the cloth's own faces, m; default 0: it passes through itself */
+  uint32_t tangents;      /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:

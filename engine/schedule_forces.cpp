@@ -104,7 +104,7 @@ constexpr Row kRows[] = {
        return c.settings.inner_friction > 0.0f ? kNeeded : "inner_friction is 0";
      },
      [](ClothTick& t) {
-       run(InnerFriction{.particle_count = t.garment.particle_count,
+       run(InnerFriction{.garment = &t.garment,
                          .mass = t.mass,
                          .velocity = t.velocity,
                          .deceleration = t.settings.inner_friction,

@@ -27,8 +27,8 @@ struct MeshDetection {
   const float* inverse_mass = nullptr;
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
-  const MeshCandidateColumns* candidates =
-      nullptr;  // null or incomplete: the trees are asked instead, rows are the same
+  /// Null or incomplete: the trees are asked instead, the rows are the same.
+  const MeshCandidateColumns* candidates = nullptr;
   float t0 = 0.0f, t1 = 1.0f;
   float thickness = 0.0f;  // m
   float friction = 0.0f;

@@ -12,7 +12,7 @@ pleat_cloth_settings bare_settings(const pleat_api& api) {
   pleat_cloth_settings& s = def.settings;
   s.substeps = s.sweeps = 1;
   s.stiffness = s.bend_stiffness = 0.0f;
-  s.edge_damping = s.bend_damping = s.air_damping = 0.0f;
+  s.edge_damping = s.bend_damping = s.air_damping = s.inner_friction = 0.0f;
   s.stretch_limit = 1.0f;
   s.surface = PLEAT_SURFACE_FLAT;
   s.level = 1;

@@ -38,7 +38,9 @@ TEST(Contact, SlowKickAtAnySpeedStaysOutside) {
       EXPECT_LT(*quality.penetration_particle_mm, 0.05);
       EXPECT_LT(*quality.penetration_interior_mm, 0.05);
       EXPECT_LT(quality.strain_max_percent, speed == 1.0 ? 3.0 : 10.0);
-      if (speed == 1.0) EXPECT_LT(*quality.rest_jitter_mm, 0.05);
+      if (speed == 1.0) {
+        EXPECT_LT(*quality.rest_jitter_mm, 0.05);
+      }
     }
   }
 }

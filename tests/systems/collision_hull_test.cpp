@@ -71,6 +71,7 @@ void detect(ContactCloth& cloth, const MeshCollider& body) {
                 cloth.inverse_mass.data(),
                 &bodies,
                 &pointer,
+                nullptr,
                 0.0f,
                 1.0f,
                 kThickness,

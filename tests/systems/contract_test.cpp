@@ -70,7 +70,7 @@ const Case kCases[] = {
      {"force"}},
     {"AirDamping", [](Sheet& s) { AirDamping{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); }, {"force"}},
     {"InnerFriction",
-     [](Sheet& s) { InnerFriction{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); },
+     [](Sheet& s) { InnerFriction{&s.garment, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); },
      {"force"}},
     {"AirDrag",
      [](Sheet& s) {
