@@ -185,6 +185,8 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
   if (def.frames > kWarmUp) budget.allocations_per_frame = double(allocations) / repeat / (def.frames - kWarmUp);
   if (folds) budget.pn_smoothing = stage_sum(best_stages(pn_groups), kSmoothingStages);
   measure_quality(api, def, progress, budget);
+  budget.surface = demo::measure_surface(api, def);
+  if (folds) budget.pn_surface = demo::measure_surface(api, pn);
   return budget;
 }
 

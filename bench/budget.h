@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "demo/quality/quality.h"
+#include "demo/quality/scene_surface.h"
 #include "demo/scenes/scene_def.h"
 #include "demo/scenes/stage_clock.h"
 
@@ -26,6 +27,8 @@ struct Budget {
   std::optional<double> pn_smoothing;           ///< median us of the smoothing stages with PN alone, where we do more
   std::optional<double> allocations_per_frame;  ///< after warm-up; absent for runs that are all warm-up
   demo::Quality quality;
+  demo::SceneSurface surface;
+  std::optional<demo::SceneSurface> pn_surface;  ///< of PN alone over the same coarse motion, where we do more
 };
 
 /// The paper's three parts, as stages.
@@ -41,8 +44,8 @@ double stage_sum(const std::vector<std::pair<std::string, demo::Spread>>& stages
 /// The stage that a system of the schedule is counted under; one that stands for itself keeps its name.
 std::string stage_group(const std::string& system);
 
-/// Runs the scene `repeat` times for the frame, again for the stages (asking the clock costs time), and once for
-/// quality.
+/// Runs the scene `repeat` times for the frame, again for the stages (asking the clock costs time), and once each
+/// for quality and for the drawn surface.
 Budget measure_budget(const pleat_api& api, const demo::SceneDef& def, uint32_t repeat);
 
 }  // namespace pleat::bench

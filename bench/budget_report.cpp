@@ -1,6 +1,8 @@
 #include "bench/budget_report.h"
 
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "bench/machine.h"
 #include "demo/quality/scene_quality.h"
@@ -47,6 +49,66 @@ void print_quality(const Quality& quality) {
   for (const auto& [name, value] : json.items()) std::printf("%-28s %10.4f\n", name.c_str(), value.get<double>());
 }
 
+/// Of what is measured of a drawn surface, in the order of the report.
+constexpr struct {
+  const char* name;
+  double demo::SurfaceMotion::*value;
+} kSurfaceRows[] = {{"normal_turn_deg", &demo::SurfaceMotion::normal_turn_deg},
+                    {"flat_turn_deg", &demo::SurfaceMotion::flat_turn_deg},
+                    {"acceleration_mm", &demo::SurfaceMotion::acceleration_mm},
+                    {"length_rms_percent", &demo::SurfaceMotion::length_rms_percent},
+                    {"area_mean_percent", &demo::SurfaceMotion::area_mean_percent},
+                    {"area_worst_percent", &demo::SurfaceMotion::area_worst_percent}};
+
+/// By phase; none where PN alone was not asked, or had no motion to compare with.
+std::vector<std::pair<const char*, double>> accelerations_over_pn(const Budget& budget) {
+  std::vector<std::pair<const char*, double>> ratios;
+  const auto add = [&](const char* phase, const demo::SurfaceMotion& ours, const demo::SurfaceMotion& pn) {
+    if (pn.acceleration_mm > 0.0) ratios.emplace_back(phase, ours.acceleration_mm / pn.acceleration_mm);
+  };
+  if (!budget.pn_surface || budget.pn_surface->moving.acceleration_mm == 0.0) return ratios;
+  add("moving", budget.surface.moving, budget.pn_surface->moving);
+  if (budget.surface.resting) add("after", *budget.surface.resting, *budget.pn_surface->resting);
+  return ratios;
+}
+
+/// A column each of the surface while the body moves and after it, then of PN alone.
+void print_surface(const Budget& budget) {
+  std::vector<std::pair<const char*, demo::SurfaceMotion>> columns;
+  const auto add = [&](const demo::SceneSurface& surface, const char* moving, const char* resting) {
+    columns.emplace_back(moving, surface.moving);
+    if (surface.resting) columns.emplace_back(resting, *surface.resting);
+  };
+  add(budget.surface, "moving", "after");
+  if (budget.pn_surface) add(*budget.pn_surface, "PN moving", "PN after");
+
+  std::printf("\n%-28s", "drawn surface");
+  for (const auto& [title, motion] : columns) std::printf(" %10s", title);
+  std::printf("\n");
+  for (const auto& [name, value] : kSurfaceRows) {
+    std::printf("  %-26s", name);
+    for (const auto& [title, motion] : columns) std::printf(" %10.3f", motion.*value);
+    std::printf("\n");
+  }
+  const auto ratios = accelerations_over_pn(budget);
+  if (ratios.empty()) return;
+  std::printf("  %-26s", "acceleration_over_pn");
+  for (const auto& [phase, ratio] : ratios) std::printf(" %10.3f", ratio);
+  std::printf("\n");
+}
+
+nlohmann::ordered_json to_json(const demo::SurfaceMotion& motion) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, value] : kSurfaceRows) json[name] = motion.*value;
+  return json;
+}
+
+nlohmann::ordered_json to_json(const demo::SceneSurface& surface) {
+  nlohmann::ordered_json json = {{"moving", to_json(surface.moving)}};
+  if (surface.resting) json["after"] = to_json(*surface.resting);
+  return json;
+}
+
 }  // namespace
 
 void print_budget(const demo::SceneDef& def, const Budget& budget) {
@@ -60,6 +122,7 @@ void print_budget(const demo::SceneDef& def, const Budget& budget) {
   if (budget.allocations_per_frame) std::printf("%-28s %10.3f\n", "allocations a frame", *budget.allocations_per_frame);
   print_beside_paper(budget);
   print_quality(budget.quality);
+  print_surface(budget);
 }
 
 nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& def, const Budget& budget) {
@@ -81,6 +144,10 @@ nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& d
   if (budget.allocations_per_frame) json["allocations_per_frame"] = *budget.allocations_per_frame;
   json["bytes_per_cloth"] = budget.cloth.bytes;
   json["quality"] = to_json(budget.quality);
+  json["surface"] = to_json(budget.surface);
+  for (const auto& [phase, ratio] : accelerations_over_pn(budget))
+    json["surface"][phase]["acceleration_over_pn"] = ratio;
+  if (budget.pn_surface) json["pn_surface"] = to_json(*budget.pn_surface);
   json["machine"] = describe_machine(api);
   return json;
 }
