@@ -10,6 +10,9 @@
 
 namespace pleat {
 
+/// What a shape is made of: spheres and tapered capsules are capsules, boxes and hulls are meshes.
+enum class ColliderKind : std::uint8_t { kCapsule, kMesh, kPlane };
+
 /// Capsules, one element each: the convex hull of a ball about a and one about b. World space, m.
 struct CapsuleColumns {
   Vec3Column previous_a, previous_b, next_a, next_b;

@@ -65,6 +65,9 @@ pleat_result cloth_suggest_level(const pleat_world*, pleat_cloth, float, uint32_
 // fabric_calls.cpp
 pleat_result fabric_apply(uint32_t, pleat_cloth_settings*);
 
+// contact_calls.cpp
+pleat_result cloth_contact_report(const pleat_world*, pleat_cloth, pleat_contact_report*);
+
 // collider_calls.cpp
 pleat_result collider_def_init(pleat_collider_def*, size_t);
 pleat_result collider_create(pleat_world*, const pleat_collider_def*, pleat_collider*);

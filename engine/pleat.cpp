@@ -54,6 +54,7 @@ constexpr pleat_api kApi = {
     .vertex_target_init = call::vertex_target_init,
     .cloth_read_indices_16 = call::cloth_read_indices_16,
     .cloth_suggest_level = call::cloth_suggest_level,
+    .cloth_contact_report = call::cloth_contact_report,
 };
 
 }  // namespace

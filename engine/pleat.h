@@ -310,6 +310,22 @@ typedef struct pleat_stats {
   uint64_t self_contacts;      /* of a cloth with itself: rows that pushed, last tick */
 } pleat_stats;
 
+/* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
+ * thickness asks for, m; 0 outside. */
+typedef struct pleat_contact_report {
+  uint32_t size;              /* set by the caller to sizeof(pleat_contact_report) */
+  uint32_t pins_inside;       /* pins in a body: the host put them there, and the cloth around them cannot leave */
+  uint64_t particle_contacts; /* rows that pushed, last tick */
+  uint64_t face_contacts;     /* rows that pushed, last tick */
+  uint64_t self_contacts;     /* rows that pushed, last tick */
+  uint64_t contacts_dropped;  /* touching places beyond the room, last tick */
+  float particle_depth;       /* of the deepest particle that is no pin */
+  float pin_depth;            /* of the deepest pin */
+  float face_depth;       /* of any point of the coarse triangles; in meshes, boxes and hulls of 45 points of each */
+  float drawn_depth;      /* of any point of the drawn triangles; in meshes, boxes and hulls of their vertices */
+  pleat_collider deepest; /* where the largest of these is; zero when all are 0 */
+} pleat_contact_report;
+
 /* What world_debug_draw shows. */
 enum {
   PLEAT_DEBUG_COARSE_EDGES = 1u << 0,  /* grey */
@@ -408,6 +424,9 @@ typedef struct pleat_api {
    * level stays; a host that follows the suggestion should go down later than up, so that it does not flicker. */
   pleat_result (*cloth_suggest_level)(const pleat_world* world, pleat_cloth cloth, float pixels_per_metre,
                                       uint32_t* level);
+  /* As of the last tick; a body that was moved since counts where it was. Found on this call: not asked for, it costs
+   * nothing. report->size says how much of it the caller knows. */
+  pleat_result (*cloth_contact_report)(const pleat_world* world, pleat_cloth cloth, pleat_contact_report* report);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

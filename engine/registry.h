@@ -54,6 +54,9 @@ class Registry {
     return slot.position;
   }
 
+  /// position < size().
+  Handle handle(std::uint32_t position) const { return {dense_[position], slots_[dense_[position]].generation}; }
+
   /// Forgets the element at `position`; all behind it move down by one.
   void remove(std::uint32_t position) {
     const std::uint32_t slot = dense_[position];

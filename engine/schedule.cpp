@@ -165,6 +165,7 @@ std::uint32_t substeps_for(const ClothTick& t, float dt) {
 
 void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   ClothTick t(world, cloth);
+  const Stats before = world.stats;
   const std::uint32_t n = substeps_for(t, dt);
   t.dt = dt / static_cast<float>(n);
   world.contact_count = 0;
@@ -176,6 +177,10 @@ void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   }
   run_phase(t, Phase::kFrameEnd);
   cloth.substeps_taken = n;
+  cloth.contacts = {.particle = world.stats.particle_contacts - before.particle_contacts,
+                    .face = world.stats.face_contacts - before.face_contacts,
+                    .self = world.stats.self_contacts - before.self_contacts,
+                    .dropped = world.stats.contacts_dropped - before.contacts_dropped};
   world.substeps += n;
 }
 

@@ -39,6 +39,11 @@ struct GarmentRecord {
   explicit GarmentRecord(Garment&& g) : garment(std::move(g)) {}
 };
 
+/// Of one cloth in its last tick, see Stats.
+struct ContactCounts {
+  std::uint64_t particle = 0, face = 0, self = 0, dropped = 0;
+};
+
 /// Which rows of the schedule a cloth runs: bit i is row i.
 using Plan = std::uint64_t;
 
@@ -47,6 +52,7 @@ struct ClothRecord {
   pleat_cloth_settings settings{};
   std::uint32_t particle_begin = 0, pin_begin = 0, normal_begin = 0, edge_begin = 0, drawn_begin = 0;
   std::uint32_t substeps_taken = 0;
+  ContactCounts contacts;
   std::uint32_t self_pair_count = kNone;  // none were sought yet
   Plan plan = 0;
 
@@ -66,9 +72,6 @@ struct MeshRecord {
 
   explicit MeshRecord(MeshCollider&& m) : mesh(std::move(m)) {}
 };
-
-/// What a shape is made of: spheres and tapered capsules are capsules, boxes and hulls are meshes.
-enum class ColliderKind : std::uint8_t { kCapsule, kMesh, kPlane };
 
 struct ColliderRecord {
   std::uint32_t shape = 0;  // PLEAT_COLLIDER_*

@@ -61,4 +61,36 @@ SegmentPair closest_to_tapered(const Vec3& p0, const Vec3& p1, const CapsulePose
   return best;
 }
 
+CapsuleGap gap_to_triangle(const CapsulePose& capsule, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 corner[] = {a, b, c, a};
+  CapsuleGap gap{{}, std::numeric_limits<float>::max()};
+  const auto consider = [&](const Vec3& away, float t) {
+    const float distance = length(away) - radius_at(capsule, t);
+    if (distance < gap.distance) gap = {away, distance};
+  };
+  for (int k = 0; k < 3; ++k) {
+    const SegmentPair at = closest_to_capsule(corner[k], corner[k + 1], capsule);
+    consider(lerp(corner[k], corner[k + 1], at.s) - lerp(capsule.a, capsule.b, at.t), at.t);
+  }
+  const Vec3 u = b - a, v = c - a, area = cross(u, v);
+  const float area2 = dot(area, area);
+  for (const float t : {0.0f, 1.0f}) {
+    const Vec3 w = (t == 0.0f ? capsule.a : capsule.b) - a;
+    const float wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
+    if (wb > 0.0f && wc > 0.0f && wb + wc < area2) consider(area * (-dot(w, area) / area2), t);
+  }
+  return gap;
+}
+
+void drop_swallowed_end(CapsulePose& c) {
+  const Vec3 core = c.b - c.a;
+  if (c.taper == 0.0f || dot(core, core) > c.taper * c.taper * 1.0001f) return;
+  if (c.taper > 0.0f) {
+    c.a = c.b, c.step_a = c.step_b, c.radius += c.taper;
+  } else {
+    c.b = c.a, c.step_b = c.step_a;
+  }
+  c.taper = 0.0f;
+}
+
 }  // namespace pleat

@@ -14,6 +14,9 @@ namespace pleat {
 inline float radius_at(const CapsulePose& c, float t) { return c.radius + c.taper * t; }
 inline float widest_radius(const CapsulePose& c) { return c.radius + std::max(c.taper, 0.0f); }
 
+/// Where the ball at one end holds the other, they are that ball.
+void drop_swallowed_end(CapsulePose& c);
+
 /// t of the ball whose surface is closest to p.
 float closest_on_tapered(const Vec3& p, const CapsulePose& c);
 inline float closest_on_capsule(const Vec3& p, const CapsulePose& c) {
@@ -31,5 +34,14 @@ inline float signed_distance(const Vec3& p, const CapsulePose& c) {
   const float t = closest_on_capsule(p, c);
   return length(p - lerp(c.a, c.b, t)) - radius_at(c, t);
 }
+
+/// From a capsule to a triangle, where they come closest.
+struct CapsuleGap {
+  Vec3 away;       // from the core to the point of the triangle, m; short or zero where they cross
+  float distance;  // between the surfaces, m; negative inside
+};
+/// The two come closest on a side of the triangle or at an end of the core that is over its inside. Not looked at: a
+/// core that goes through the triangle.
+CapsuleGap gap_to_triangle(const CapsulePose& capsule, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace pleat

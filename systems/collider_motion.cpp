@@ -1,24 +1,8 @@
 #include "systems/collider_motion.h"
 
-#include "systems/closest_points.h"
+#include "systems/capsule_shape.h"
 
 namespace pleat {
-namespace {
-
-/// Where the ball at one end holds the other, they are that ball.
-void drop_swallowed_end(CapsulePose& c) {
-  const Vec3 core = c.b - c.a;
-  if (c.taper == 0.0f || dot(core, core) > c.taper * c.taper * 1.0001f) return;
-  if (c.taper > 0.0f) {
-    c.a = c.b, c.step_a = c.step_b, c.radius += c.taper;
-  } else {
-    c.b = c.a, c.step_b = c.step_a;
-  }
-  c.taper = 0.0f;
-}
-
-}  // namespace
-
 bool ColliderMotion::validate() const {
   return capsules != nullptr && bodies != nullptr && position.x != nullptr && poses != nullptr &&
          pose_count != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 <= t1 && t1 <= 1.0f;

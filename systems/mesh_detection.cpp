@@ -127,21 +127,10 @@ struct MeshTest {
     if (t == kNoTriangle) return;
     const MeshPose::Corners body = pose.corners(t);
     const Vec3 surface = at.point(body.a, body.b, body.c), away = f.x[c] - surface;
-    const int zeros = (at.a == 0.0f) + (at.b == 0.0f) + (at.c == 0.0f);
-    Vec3 outward;
-    bool border = false;
-    if (zeros == 2) {
-      outward = pose.vertex_normal(pose.corner(t, at.a > 0.0f ? 0 : at.b > 0.0f ? 1 : 2));
-    } else if (zeros == 1) {
-      const int k = at.c == 0.0f ? 0 : at.a == 0.0f ? 1 : 2;
-      border = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(k)] == kNoTriangle;
-      outward = pose.edge_normal(t, k);
-    } else {
-      outward = body.normal();
-    }
+    const auto [outward, on_face, border] = pose.outward(t, at);
     const bool inside = dot(away, outward) < 0.0f;
     if (inside ? border || distance2 > pose.mesh.depth * pose.mesh.depth : distance2 > reach * reach) return;
-    const bool own_normal = zeros == 0 || distance2 < kTouching * kTouching;
+    const bool own_normal = on_face || distance2 < kTouching * kTouching;
     const Vec3 normal = normalized_or(own_normal ? outward : inside ? -away : away, Vec3{});
     if (normal == Vec3{}) return;
     const Vec3 step =

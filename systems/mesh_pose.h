@@ -77,6 +77,13 @@ struct MeshPose {
   Vec3 vertex_normal(std::uint32_t v) const;
   /// The same for edge k of a triangle: the sum of its two triangles' normals.
   Vec3 edge_normal(std::uint32_t triangle, int k) const;
+  /// The side of a point whose nearest point of the body is `at` on a triangle.
+  struct Outward {
+    Vec3 normal;   // not of unit length
+    bool on_face;  // not on an edge or a vertex
+    bool border;   // on an edge without a second triangle: nobody can tell
+  };
+  Outward outward(std::uint32_t triangle, const Barycentrics& at) const;
   /// No neighbour of v stands out further than v in the direction of `normal`, up to a slope of `tolerance`.
   bool is_extreme(std::uint32_t v, const Vec3& normal, float tolerance) const;
 };

@@ -1,7 +1,6 @@
 #include "systems/surface_clearance.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "systems/capsule_shape.h"
 
@@ -10,30 +9,6 @@ namespace {
 
 constexpr int kMostSweeps = 8;          // one settles planes that agree; opposed ones converge within a few
 constexpr float kSettledDepth = 1e-6f;  // m behind a plane that is not worth another sweep
-
-/// To the point of triangle abc nearest to the capsule, from the core there; short or zero where they cross. The two
-/// come closest on a side of the triangle or at an end of the core that is over its inside.
-Vec3 from_core(const CapsulePose& capsule, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 corner[] = {a, b, c, a};
-  Vec3 nearest;
-  float least = std::numeric_limits<float>::max();
-  const auto consider = [&](const Vec3& away, float t) {
-    const float distance = length(away) - radius_at(capsule, t);
-    if (distance < least) nearest = away, least = distance;
-  };
-  for (int k = 0; k < 3; ++k) {
-    const SegmentPair at = closest_to_capsule(corner[k], corner[k + 1], capsule);
-    consider(lerp(corner[k], corner[k + 1], at.s) - lerp(capsule.a, capsule.b, at.t), at.t);
-  }
-  const Vec3 u = b - a, v = c - a, area = cross(u, v);
-  const float area2 = dot(area, area);
-  for (const float t : {0.0f, 1.0f}) {
-    const Vec3 w = (t == 0.0f ? capsule.a : capsule.b) - a;
-    const float wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
-    if (wb > 0.0f && wc > 0.0f && wb + wc < area2) consider(area * (-dot(w, area) / area2), t);
-  }
-  return nearest;
-}
 
 /// The drawn vertices of one face in the face's own numbering, and what a capsule makes of them.
 struct FaceVertices {
@@ -150,7 +125,7 @@ struct Lifter {
 
   void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule) {
     const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
-    const Vec3 away = from_core(capsule, a, b, c);
+    const Vec3 away = gap_to_triangle(capsule, a, b, c).away;
     const float distance = length(away);
     const Vec3 normal = distance > 1e-9f ? away * (1.0f / distance) : normalized_or(cross(b - a, c - a), Vec3{0, 1, 0});
     const float height = std::max(dot(normal, capsule.a), dot(normal, capsule.b) + capsule.taper) + capsule.radius;

@@ -132,6 +132,7 @@ int main(int argc, char** argv) {
   pleat_cloth_def cloth_def;
   pleat_cloth cloth;
   pleat_stats stats;
+  pleat_contact_report report;
   float positions[3 * 81];
   uint32_t i, frame;
 
@@ -173,6 +174,11 @@ int main(int argc, char** argv) {
   MUST(pleat->world_stats(world, &stats));
   CHECK(stats.ticks == 60 && stats.nonfinite_restored == 0);
   CHECK(pleat->world_step(world, -1.0f) == PLEAT_ERROR_ARGUMENT);
+  memset(&report, 0, sizeof report);
+  report.size = sizeof report;
+  MUST(pleat->cloth_contact_report(world, cloth, &report));
+  CHECK(report.face_depth < 1e-3f && report.drawn_depth < 1e-3f && report.pins_inside == 0);
+  if (pleat->features & PLEAT_FEATURE_COLLISION) CHECK(report.particle_contacts + report.face_contacts > 0);
   pleat->world_destroy(world);
   return 0;
 }

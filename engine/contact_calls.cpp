@@ -1,0 +1,64 @@
+// What a host may ask about a cloth and the bodies it touches.
+#include <cassert>
+
+#include "engine/border.h"
+#include "engine/calls.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/penetration.h"
+#endif
+
+namespace pleat::call {
+namespace {
+
+#ifdef PLEAT_WITH_COLLISION
+void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {
+  const bool drawn = cloth.pattern() != nullptr;
+  const Penetration penetration{
+      .garment = &cloth.garment(),
+      .position = world.particles.position.view().from(cloth.particle_begin),
+      .pattern = cloth.pattern(),
+      .drawn_position = drawn ? world.drawn.position.view().from(cloth.drawn_begin) : ConstVec3View{},
+      .capsules = &world.capsules,
+      .planes = world.planes.data(),
+      .plane_count = world.planes.size(),
+      .meshes = world.mesh_pointers.data(),
+      .bodies = world.bodies.get()};
+  assert(penetration.validate());
+  const PenetrationDepths depths = penetration.run();
+  report.pins_inside = depths.pins_inside;
+  report.particle_depth = depths.particle;
+  report.pin_depth = depths.pin;
+  report.face_depth = depths.face;
+  report.drawn_depth = depths.drawn;
+  if (!depths.deepest) return;
+  for (std::uint32_t i = 0; i < world.colliders.size(); ++i) {
+    if (world.colliders[i].kind != depths.deepest->kind || world.colliders[i].position != depths.deepest->index)
+      continue;
+    const Handle handle = world.collider_handles.handle(i);
+    report.deepest = {handle.index, handle.generation};
+  }
+}
+#else
+void add_depths(const World&, const ClothRecord&, pleat_contact_report&) {}
+#endif
+
+}  // namespace
+
+pleat_result cloth_contact_report(const pleat_world* handle, pleat_cloth cloth, pleat_contact_report* report) {
+  return guarded(as_world(handle), "cloth_contact_report", [&] {
+    const World& world = need_world(handle);
+    const ClothRecord& record = need_cloth(world, cloth);
+    need_pointer("report", report);
+    need_range("report.size", report->size, sizeof report->size, sizeof(pleat_contact_report));
+    pleat_contact_report all{};
+    all.size = report->size;
+    all.particle_contacts = record.contacts.particle;
+    all.face_contacts = record.contacts.face;
+    all.self_contacts = record.contacts.self;
+    all.contacts_dropped = record.contacts.dropped;
+    add_depths(world, record, all);
+    std::memcpy(report, &all, report->size);
+  });
+}
+
+}  // namespace pleat::call
