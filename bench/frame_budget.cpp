@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/budget.h"
 #include "bench/budget_report.h"
+#include "bench/starts.h"
 #include "demo/program/entry.h"
 #include "demo/program/output.h"
 #include "demo/scenes/scene_reader.h"
@@ -21,6 +23,7 @@ int run_program(int argc, char** argv) {
   pleat::demo::SceneRequest request;
   request.scene = "skirt_kick";
   uint32_t repeat = 5;
+  uint32_t starts = 1;
   int threads = 1;
   std::filesystem::path json_path;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
@@ -28,6 +31,10 @@ int run_program(int argc, char** argv) {
   app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
   app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
   app.add_option("--repeat", repeat, "runs; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--starts", starts, "also the worst quality from that many starts, 1 mm apart")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   app.add_option_function<std::string>(
       "--surface", [&](const std::string& mode) { request.settings.push_back("surface=" + mode); },
       "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
@@ -44,8 +51,15 @@ int run_program(int argc, char** argv) {
   std::optional<pleat::demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
   const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat);
-  if (json) json->commit(pleat::bench::budget_json(api, def, budget).dump(2) + "\n");
+  std::vector<pleat::bench::Start> from_starts;
+  if (starts > 1) from_starts = pleat::bench::measure_starts(api, def, starts);
+  if (json) {
+    nlohmann::ordered_json figures = pleat::bench::budget_json(api, def, budget);
+    if (starts > 1) figures["starts"] = pleat::bench::starts_json(from_starts);
+    json->commit(figures.dump(2) + "\n");
+  }
   pleat::bench::print_budget(def, budget);
+  if (starts > 1) pleat::bench::print_starts(from_starts);
   return 0;
 }
 
