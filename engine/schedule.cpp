@@ -89,10 +89,10 @@ void make_room(World& world, const ClothRecord& cloth) {
       at_least(world.mesh_candidates.anchor, g.particle_count);
       at_least(world.mesh_candidates.drift, g.particle_count);
     }
-    if (const TessellationPattern* pattern = cloth.pattern();
-        pattern != nullptr && world.capsules.size() + world.planes.size() != 0) {
+    if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
       if (world.footprint.size() < pattern->vertex_count) world.footprint.resize(pattern->vertex_count);
       at_least(world.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
+      for (const MeshRecord& body : world.meshes) at_least(world.near_triangles, body.mesh.triangles.size() / 3);
     }
   }
 }

@@ -25,11 +25,6 @@ inline const char* with_capsules(const World& w, const ClothRecord&) {
 inline const char* with_planes(const World& w, const ClothRecord&) {
   return w.colliders.empty() ? "no collider" : w.planes.size() == 0 ? "no plane" : kNeeded;
 }
-inline const char* with_capsules_or_planes(const World& w, const ClothRecord&) {
-  return w.colliders.empty()                        ? "no collider"
-         : w.capsules.size() + w.planes.size() == 0 ? "no capsule and no plane"
-                                                    : kNeeded;
-}
 inline const char* with_meshes(const World& w, const ClothRecord&) {
   return w.colliders.empty() ? "no collider" : w.meshes.empty() ? "no mesh body" : kNeeded;
 }

@@ -9,6 +9,7 @@
 #include "systems/tessellation.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collider_motion.h"
+#include "systems/mesh_clearance.h"
 #include "systems/surface_clearance.h"
 #endif
 #endif
@@ -37,6 +38,16 @@ const char* with_fold_relaxation(const World&, const ClothRecord& c) {
          : c.settings.surface != PLEAT_SURFACE_PLEAT ? "folds of another surface, or none"
                                                      : kNeeded;
 }
+
+#ifdef PLEAT_WITH_COLLISION
+/// Half of the cloth's thickness; the rest is left to contact that is not exact.
+float surface_clearance(const ClothTick& t) { return 0.5f * t.settings.thickness; }
+
+ClearanceList clearance_planes(ClothTick& t) {
+  World& w = t.world;
+  return {w.clearance_planes.data(), static_cast<std::uint32_t>(w.clearance_planes.size()), &w.clearance_plane_count};
+}
+#endif
 
 constexpr Row kRows[] = {
     {Phase::kFrameEnd, "particle_normals", with_normals,
@@ -78,7 +89,7 @@ constexpr Row kRows[] = {
                         .drawn_position = t.drawn_position});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kFrameEnd, "surface_footprint", with_capsules_or_planes,
+    {Phase::kFrameEnd, "surface_footprint", with_colliders,
      [](ClothTick& t) {
        run(Tessellation{.mode = SurfaceMode::kFlat,
                         .garment = &t.garment,
@@ -103,7 +114,22 @@ constexpr Row kRows[] = {
                           .pose_count = &w.capsule_pose_count},
            w.stats);
      }},
-    {Phase::kFrameEnd, "surface_clearance", with_capsules_or_planes,
+    {Phase::kFrameEnd, "mesh_clearance", with_meshes,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(MeshClearance{.garment = &t.garment,
+                         .pattern = t.cloth.pattern(),
+                         .footprint = w.footprint.view(),
+                         .bodies = w.bodies.get(),
+                         .meshes = w.mesh_pointers.data(),
+                         .t = t.t1,
+                         .clearance = surface_clearance(t),
+                         .near = w.near_triangles.data(),
+                         .near_capacity = static_cast<std::uint32_t>(w.near_triangles.size()),
+                         .planes = clearance_planes(t),
+                         .drawn_position = t.drawn_position});
+     }},
+    {Phase::kFrameEnd, "surface_clearance", with_colliders,
      [](ClothTick& t) {
        World& w = t.world;
        run(SurfaceClearance{.garment = &t.garment,
@@ -114,9 +140,8 @@ constexpr Row kRows[] = {
                             .half_spaces = w.planes.data(),
                             .half_space_count = w.planes.size(),
                             .t = t.t1,
-                            .clearance = 0.5f * t.settings.thickness,  // the rest is left to contact that is not exact
-                            .planes = w.clearance_planes.data(),
-                            .plane_capacity = static_cast<std::uint32_t>(w.clearance_planes.size()),
+                            .clearance = surface_clearance(t),
+                            .planes = clearance_planes(t),
                             .drawn_position = t.drawn_position});
      }},
 #endif

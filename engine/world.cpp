@@ -109,6 +109,7 @@ World::World(const pleat_world_def& definition)
       cell_scratch(&memory),
       footprint(&memory),
       clearance_planes(&memory),
+      near_triangles(&memory),
       fold_scratch(&memory) {}
 
 World::~World() = default;

@@ -124,8 +124,9 @@ struct World {
   Column<std::uint32_t> cell_scratch;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
+  Column<NearTriangle> near_triangles;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
-  std::uint32_t capsule_pose_count = 0, contact_count = 0;
+  std::uint32_t capsule_pose_count = 0, contact_count = 0, clearance_plane_count = 0;
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;

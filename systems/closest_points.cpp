@@ -27,6 +27,12 @@ Barycentrics closest_on_edges(const Vec3& p, const Vec3& a, const Vec3& b, const
   return best;
 }
 
+Barycentrics on_edge(int k, float t) {
+  float w[3] = {};
+  w[k] = 1.0f - t, w[(k + 1) % 3] = t;
+  return {w[0], w[1], w[2]};
+}
+
 }  // namespace
 
 SegmentPair closest_between_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
@@ -76,6 +82,43 @@ Barycentrics closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   const double scale = 1.0 / (area_a + area_b + area_c);
   const float vb = static_cast<float>(area_b * scale), vc = static_cast<float>(area_c * scale);
   return {std::max(0.0f, 1.0f - vb - vc), vb, vc};
+}
+
+TrianglePair closest_between_triangles(const Vec3 (&p)[3], const Vec3 (&q)[3]) {
+  TrianglePair best{};
+  float least = std::numeric_limits<float>::max();
+  const auto consider = [&](const Barycentrics& first, const Barycentrics& second) {
+    const Vec3 d = first.point(p[0], p[1], p[2]) - second.point(q[0], q[1], q[2]);
+    if (dot(d, d) < least) best = {first, second}, least = dot(d, d);
+  };
+  // A corner over the other's inside, where it stands out most, is the answer; else it is one of the candidates.
+  constexpr Barycentrics kCorner[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto corners_over = [&](const Vec3(&from)[3], const Vec3(&over)[3], const auto& found) {
+    const Vec3 area = cross(over[1] - over[0], over[2] - over[0]);
+    const float h[] = {dot(from[0] - over[0], area), dot(from[1] - over[0], area), dot(from[2] - over[0], area)};
+    const bool one_side = (h[0] > 0) == (h[1] > 0) && (h[1] > 0) == (h[2] > 0);
+    const int nearest = std::abs(h[0]) <= std::min(std::abs(h[1]), std::abs(h[2])) ? 0
+                        : std::abs(h[1]) <= std::abs(h[2])                         ? 1
+                                                                                   : 2;
+    for (int k = 0; k < 3; ++k) {
+      if (one_side && k != nearest) continue;
+      const Barycentrics at = closest_on_triangle(from[k], over[0], over[1], over[2]);
+      found(kCorner[k], at);
+      if (one_side && at.a > 0.0f && at.b > 0.0f && at.c > 0.0f) return true;
+    }
+    return false;
+  };
+  if (corners_over(p, q, consider)) return best;
+  if (corners_over(q, p, [&](const Barycentrics& second, const Barycentrics& first) { consider(first, second); })) {
+    return best;
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const SegmentPair at = closest_between_segments(p[i], p[(i + 1) % 3], q[k], q[(k + 1) % 3]);
+      consider(on_edge(i, at.s), on_edge(k, at.t));
+    }
+  }
+  return best;
 }
 
 }  // namespace pleat

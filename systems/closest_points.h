@@ -35,4 +35,10 @@ struct Barycentrics {
 /// The point of triangle abc closest to p.
 Barycentrics closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// The points of two triangles that are closest to each other. Of two that cross, any points of them.
+struct TrianglePair {
+  Barycentrics first, second;
+};
+TrianglePair closest_between_triangles(const Vec3 (&p)[3], const Vec3 (&q)[3]);
+
 }  // namespace pleat

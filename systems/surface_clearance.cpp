@@ -7,9 +7,6 @@
 namespace pleat {
 namespace {
 
-constexpr int kMostSweeps = 8;          // one settles planes that agree; opposed ones converge within a few
-constexpr float kSettledDepth = 1e-6f;  // m behind a plane that is not worth another sweep
-
 /// The drawn vertices of one face in the face's own numbering, and what a capsule makes of them.
 struct FaceVertices {
   static constexpr std::uint32_t kRoom = kMaxVerticesPerFace;
@@ -66,9 +63,8 @@ struct FaceVertices {
 
 struct Lifter {
   const SurfaceClearance& in;
-  std::uint32_t count = 0;
 
-  void gather(std::uint32_t f) {
+  void gather(std::uint32_t f) const {
     FaceVertices face(in, f);
     for (std::size_t k = 0; k < in.half_space_count; ++k) {
       if (in.half_spaces[k].enabled) keep_above(face, {in.half_spaces[k], in.t});
@@ -84,7 +80,7 @@ struct Lifter {
   }
 
   /// A half-space is its own plane for every vertex, also for those that a capsule may still move by a bulge.
-  void keep_above(const FaceVertices& face, const PlanePose& body) {
+  void keep_above(const FaceVertices& face, const PlanePose& body) const {
     const float height = body.height + in.clearance;
     if (dot(body.normal, face.center) >= height + face.size + 2.0f * face.bulge) return;
     for (std::uint32_t i = 0; i < face.count; ++i) {
@@ -93,7 +89,7 @@ struct Lifter {
     }
   }
 
-  void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept) {
+  void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept) const {
     const float far = kept + face.bulge, far2 = far * far + face.longest_side2 * (1.0f / 3.0f);
     if (!face.any_nearer_than(far2)) return;
     const std::uint32_t* t = in.pattern->face_triangles.data();
@@ -123,7 +119,7 @@ struct Lifter {
     return distance >= kept + fall;
   }
 
-  void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule) {
+  void add_plane(const FaceVertices& face, const std::uint32_t* t, const CapsulePose& capsule) const {
     const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
     const Vec3 away = gap_to_triangle(capsule, a, b, c).away;
     const float distance = length(away);
@@ -132,27 +128,7 @@ struct Lifter {
     add({normal, height + in.clearance, {face.drawn[t[0]], face.drawn[t[1]], face.drawn[t[2]]}});
   }
 
-  void add(const ClearancePlane& plane) {
-    if (count == in.plane_capacity) settle();
-    in.planes[count++] = plane;
-  }
-
-  void settle() {
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-      float deepest = 0.0f;
-      for (std::uint32_t p = 0; p < count; ++p) {
-        const ClearancePlane& plane = in.planes[p];
-        for (const std::uint32_t v : plane.vertex) {
-          const float depth = plane.height - dot(plane.normal, in.drawn_position[v]);
-          if (depth <= 0.0f) continue;
-          in.drawn_position.add(v, plane.normal * depth);
-          deepest = std::max(deepest, depth);
-        }
-      }
-      if (deepest <= kSettledDepth) break;
-    }
-    count = 0;
-  }
+  void add(const ClearancePlane& plane) const { in.planes.add(plane, in.drawn_position); }
 };
 
 }  // namespace
@@ -160,14 +136,15 @@ struct Lifter {
 bool SurfaceClearance::validate() const {
   return garment != nullptr && pattern != nullptr && footprint.x != nullptr &&
          (capsules != nullptr || capsule_count == 0) && (half_spaces != nullptr || half_space_count == 0) &&
-         clearance >= 0.0f && planes != nullptr && plane_capacity > 0 && drawn_position.x != nullptr;
+         clearance >= 0.0f && planes.validate() && drawn_position.x != nullptr;
 }
 
 void SurfaceClearance::run() const {
-  if (capsule_count + half_space_count == 0) return;
-  Lifter lifter{*this};
-  for (std::uint32_t f = 0; f < garment->face_count; ++f) lifter.gather(f);
-  lifter.settle();
+  if (capsule_count + half_space_count != 0) {
+    const Lifter lifter{*this};
+    for (std::uint32_t f = 0; f < garment->face_count; ++f) lifter.gather(f);
+  }
+  planes.settle(drawn_position);
 }
 
 }  // namespace pleat

@@ -15,10 +15,10 @@
 // shared, so it does not crack; and where nothing bulges behind a plane it is left as it is, bit for bit.
 #pragma once
 
-#include "components/clearance_plane.h"
 #include "components/colliders.h"
 #include "components/garment.h"
 #include "components/tessellation_pattern.h"
+#include "systems/clearance_list.h"
 
 namespace pleat {
 
@@ -26,7 +26,8 @@ namespace pleat {
 /// rounding. One sweep does it where the planes at a vertex agree (all angles between their normals are at most 90
 /// degrees); where they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are
 /// outside. Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
-/// Writes: drawn_position (V) m; planes (scratch; when it is full what it holds is settled first)
+///         planes that other systems have gathered already
+/// Writes: drawn_position (V) m; planes, which are settled
 /// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
 struct SurfaceClearance {
   const Garment* garment = nullptr;
@@ -38,8 +39,7 @@ struct SurfaceClearance {
   std::size_t half_space_count = 0;
   float t = 1.0f;          // fraction of the tick at which the half-spaces are asked for
   float clearance = 0.0f;  // m
-  ClearancePlane* planes = nullptr;
-  std::uint32_t plane_capacity = 0;
+  ClearanceList planes;
   Vec3View drawn_position;
 
   bool validate() const;

@@ -107,6 +107,7 @@ TEST(Schedule, CollidersArePlannedAnewWhenTheyComeAndGo) {
   EXPECT_TRUE(runs(scene.explain("capsule_detection")));
   EXPECT_TRUE(runs(scene.explain("collision_response")));
   EXPECT_TRUE(scene.explain("mesh_detection").ends_with("left out: no mesh body"));
+  EXPECT_TRUE(scene.explain("mesh_clearance").ends_with("left out: no mesh body"));
   EXPECT_GT(scene.inside().contacts.size(), 0u);
   scene.step();
   must(call::collider_destroy(scene, sphere));

@@ -76,6 +76,28 @@ TEST(ClosestPoints, TriangleAgreesWithSearch) {
   }
 }
 
+TEST(ClosestPoints, TrianglesApartAgreeWithSearchOverTheirPointsAndEdges) {
+  Points points;
+  for (int n = 0; n < 3000; ++n) {
+    Vec3 p[3], q[3];
+    for (Vec3& x : p) x = points.draw(n % 3) + Vec3{0.0f, 2.5f, 0.0f};  // so that they never cross
+    for (Vec3& x : q) x = points.draw(n % 3);
+    const TrianglePair at = closest_between_triangles(p, q);
+    const Vec3 found = at.first.point(p[0], p[1], p[2]) - at.second.point(q[0], q[1], q[2]);
+    float expected = 1e9f;  // by alternating projections, which converge for convex sets
+    Vec3 x = p[0];
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 y = closest_on_triangle(x, q[0], q[1], q[2]).point(q[0], q[1], q[2]);
+      x = closest_on_triangle(y, p[0], p[1], p[2]).point(p[0], p[1], p[2]);
+      const float now = length(x - y);
+      if (expected - now < 1e-9f && i > 20) break;
+      expected = std::min(expected, now);
+    }
+    ASSERT_LE(length(found), expected + 1e-5f) << "case " << n;
+    ASSERT_GE(length(found), expected - 2e-3f) << "case " << n;  // the search stalls where they are nearly parallel
+  }
+}
+
 TEST(ClosestPoints, ZeroWeightNamesTheFeature) {
   const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
   EXPECT_EQ(closest_on_triangle({-1, -1, 1}, a, b, c).a, 1.0f);

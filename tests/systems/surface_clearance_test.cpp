@@ -24,6 +24,7 @@ struct Clearance {
   std::vector<PlaneCollider> half_spaces = {};
   Vec3Column footprint{std::pmr::get_default_resource()};
   std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
+  std::uint32_t count = 0;
 
   SurfaceClearance system() {
     footprint.resize(surface.pattern.vertex_count);
@@ -39,8 +40,7 @@ struct Clearance {
             .half_spaces = half_spaces.data(),
             .half_space_count = half_spaces.size(),
             .clearance = kClearance,
-            .planes = planes.data(),
-            .plane_capacity = static_cast<std::uint32_t>(planes.size()),
+            .planes = {planes.data(), static_cast<std::uint32_t>(planes.size()), &count},
             .drawn_position = surface.drawn.view()};
   }
 };
@@ -254,9 +254,9 @@ TEST(SurfaceClearance, ValidateNamesWhatIsMissing) {
   EXPECT_FALSE(bad.validate());
   bad.capsule_count = 0;
   EXPECT_TRUE(bad.validate());
-  bad = good, bad.planes = nullptr;
+  bad = good, bad.planes.planes = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.plane_capacity = 0;
+  bad = good, bad.planes.capacity = 0;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.clearance = -1.0f;
   EXPECT_FALSE(bad.validate());

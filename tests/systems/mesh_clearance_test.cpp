@@ -1,0 +1,220 @@
+#include "systems/mesh_clearance.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "systems/closest_points.h"
+#include "tests/systems/contact_scene.h"
+#include "tests/systems/surface_fixture.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kClearance = 0.0025f;
+constexpr float kRounding = 5e-6f;  // m
+
+/// A convex body 5 mm under the sheet at y = 0, which is what contact keeps: `shape` turned about z and lowered.
+MeshCollider under_sheet(BodyShape shape, float turn = 0.0f, float x = 0.0f, float gap = 0.005f) {
+  float top = -1.0f;
+  for (Vec3& p : shape.positions) {
+    p = {p.x * std::cos(turn) - p.y * std::sin(turn), p.x * std::sin(turn) + p.y * std::cos(turn), p.z};
+    top = std::max(top, p.y);
+  }
+  for (Vec3& p : shape.positions) p += {x, -top - gap, 0.0f};
+  return make_body(shape.positions, shape.triangles);
+}
+
+/// A sheet of 1 m whose drawn surface sags by at most `sag` between the particles, over one body.
+struct Sagging {
+  Surface surface;
+  MeshCollider mesh;
+  const MeshCollider* pointer = &mesh;
+  CollisionBodies bodies{memory()};
+  Vec3Column footprint{memory()};
+  std::vector<NearTriangle> near;
+  std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
+  std::uint32_t count = 0;
+
+  Sagging(float sag, MeshCollider&& body, std::uint32_t level = 0)
+      : surface(sheet(5), level), mesh(std::move(body)), near(mesh.triangles.size() / 3) {
+    bodies.add_mesh(mesh);
+    surface.run();
+    footprint.resize(surface.pattern.vertex_count);
+    Tessellation flat = surface.tessellation();
+    flat.mode = SurfaceMode::kFlat;
+    flat.drawn_position = footprint.view();
+    flat.run();
+    for (std::uint32_t v = surface.garment.particle_count; v < surface.pattern.vertex_count; ++v) {
+      const Vec3 x = drawn(v);
+      const float part = 0.6f + 0.4f * std::sin(40.0f * x.x) * std::cos(30.0f * x.z);
+      surface.drawn.view().set(v, x - Vec3{0.0f, sag * part, 0.0f});
+    }
+  }
+  Vec3 drawn(std::uint32_t v) const { return surface.drawn.view()[v]; }
+  std::vector<Vec3> all_drawn() const {
+    std::vector<Vec3> x;
+    for (std::uint32_t v = 0; v < surface.pattern.vertex_count; ++v) x.push_back(drawn(v));
+    return x;
+  }
+  MeshClearance system() {
+    return {.garment = &surface.garment,
+            .pattern = &surface.pattern,
+            .footprint = footprint.view(),
+            .bodies = &bodies,
+            .meshes = &pointer,
+            .clearance = kClearance,
+            .near = near.data(),
+            .near_capacity = static_cast<std::uint32_t>(near.size()),
+            .planes = {planes.data(), static_cast<std::uint32_t>(planes.size()), &count},
+            .drawn_position = surface.drawn.view()};
+  }
+  void run() {
+    const MeshClearance s = system();
+    ASSERT_TRUE(s.validate());
+    s.run();
+    s.planes.settle(surface.drawn.view());
+  }
+
+  /// The least distance of points all over the drawn triangles to the body, which is convex; negative inside. By
+  /// sampling, independent of the system.
+  float least_distance() const {
+    constexpr int kSide = 6;
+    float least = std::numeric_limits<float>::max();
+    const auto& indices = surface.pattern.indices;
+    for (std::size_t t = 0; t < indices.size(); t += 3) {
+      const Vec3 p = drawn(indices[t]), q = drawn(indices[t + 1]), r = drawn(indices[t + 2]);
+      for (int i = 0; i <= kSide; ++i) {
+        for (int j = 0; i + j <= kSide; ++j) {
+          const Vec3 x = p + (q - p) * (static_cast<float>(i) / kSide) + (r - p) * (static_cast<float>(j) / kSide);
+          if (x.y < 0.02f) least = std::min(least, distance_of(x, least));
+        }
+      }
+    }
+    return least;
+  }
+
+ private:
+  float distance_of(const Vec3& x, float bound) const {
+    float outside = -std::numeric_limits<float>::max(), distance = std::numeric_limits<float>::max();
+    const ConstVec3View at = mesh.next.view();
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const Vec3 a = at[mesh.triangles[t]], b = at[mesh.triangles[t + 1]], c = at[mesh.triangles[t + 2]];
+      outside = std::max(outside, dot(x - a, normalized_or(cross(b - a, c - a), Vec3{})));
+      if (outside > bound) return outside;
+      distance = std::min(distance, length(closest_on_triangle(x, a, b, c).point(a, b, c) - x));
+    }
+    return outside > 0.0f ? distance : -distance;
+  }
+};
+
+TEST(MeshClearance, DrawnTrianglesKeepTheClearanceFromASphereAtEveryLevelProperty) {
+  for (const std::uint32_t level : {0u, 1u, 3u, 8u}) {
+    Sagging s(0.03f, under_sheet(icosphere(2, 0.3f)), level);
+    ASSERT_LT(s.least_distance(), -0.001f);
+    s.run();
+    EXPECT_GE(s.least_distance(), kClearance - kRounding) << "level " << level;
+  }
+}
+
+TEST(MeshClearance, ASharpEdgeDoesNotCutBetweenDrawnVerticesProperty) {
+  for (const float turn : {0.0f, 0.2f, 0.785f}) {
+    for (const float x : {0.0f, 0.013f, 0.1f, 0.31f}) {
+      Sagging s(0.03f, under_sheet(box_shape({0.2f, 0.2f, 0.33f}), turn, x));
+      s.run();
+      EXPECT_GE(s.least_distance(), kClearance - kRounding) << "turn " << turn << ", x " << x;
+    }
+  }
+}
+
+TEST(MeshClearance, AFlatBodyPushesStraightUpAcrossItsInnerEdges) {
+  Sagging s(0.03f, under_sheet(box_shape({2.0f, 0.2f, 2.0f})));
+  const std::vector<Vec3> before = s.all_drawn();
+  s.run();
+  for (std::uint32_t v = 0; v < before.size(); ++v) {
+    EXPECT_NEAR(s.drawn(v).y, std::max(before[v].y, -0.005f + kClearance), kRounding);
+    EXPECT_NEAR(s.drawn(v).x, before[v].x, kRounding);
+    EXPECT_NEAR(s.drawn(v).z, before[v].z, kRounding);
+  }
+}
+
+TEST(MeshClearance, WhatIsOutsideIsUntouchedBitForBitAndNoPlaneIsKept) {
+  for (const float sag : {-0.05f, 0.002f}) {  // away from the body; less than the gap allows
+    Sagging s(sag, under_sheet(icosphere(2, 0.3f)));
+    const std::vector<Vec3> before = s.all_drawn();
+    s.system().run();
+    EXPECT_EQ(s.count, 0u);
+    EXPECT_EQ(before, s.all_drawn());
+  }
+}
+
+TEST(MeshClearance, ClothThatCameThroughIsDrawnOutside) {
+  Sagging s(0.005f, under_sheet(box_shape({2.0f, 0.2f, 2.0f}), 0.0f, 0.0f, -0.002f));
+  s.run();
+  for (const Vec3& x : s.all_drawn()) EXPECT_NEAR(x.y, 0.002f + kClearance, kRounding);
+}
+
+TEST(MeshClearance, TheFarSideOfAThinBodyDoesNotPull) {
+  Sagging s(0.03f, under_sheet(box_shape({2.0f, 0.001f, 2.0f})));
+  s.run();
+  for (const Vec3& x : s.all_drawn()) EXPECT_GE(x.y, -0.005f + kClearance - kRounding);
+}
+
+TEST(MeshClearance, MarginOfTheBodyIsKeptAndADisabledOneIsNotMet) {
+  MeshCollider padded = under_sheet(icosphere(2, 0.3f));
+  padded.thickness = 0.002f;
+  Sagging s(0.03f, std::move(padded));
+  s.run();
+  EXPECT_GE(s.least_distance(), kClearance + 0.002f - kRounding);
+
+  Sagging off(0.03f, under_sheet(icosphere(2, 0.3f)));
+  off.mesh.enabled = false;
+  const std::vector<Vec3> before = off.all_drawn();
+  off.run();
+  EXPECT_EQ(before, off.all_drawn());
+}
+
+TEST(MeshClearance, ContinuousInTheMotionOfTheBodyProperty) {
+  constexpr float kStep = 2e-4f;
+  std::vector<Vec3> last;
+  float largest = 0.0f;
+  for (int i = 0; i <= 400; ++i) {  // rises until contact would hold it, then slides along, edges and corners first
+    const float shift = kStep * static_cast<float>(i), rise = std::min(shift - 0.04f, 0.0f);
+    Sagging s(0.03f, under_sheet(box_shape({0.2f, 0.2f, 0.33f}), 0.3f, std::max(shift - 0.04f, 0.0f), 0.005f - rise));
+    s.run();
+    const std::vector<Vec3> now = s.all_drawn();
+    for (std::size_t v = 0; v < last.size(); ++v) largest = std::max(largest, length(now[v] - last[v]));
+    last = now;
+  }
+  EXPECT_GT(largest, 0.0f);
+  EXPECT_LT(largest, 20.0f * kStep);  // a pop would be a centimetre
+}
+
+TEST(MeshClearance, AListTooSmallIsSettledInTurn) {
+  Sagging s(0.03f, under_sheet(icosphere(2, 0.3f)));
+  s.planes.resize(7);
+  s.run();
+  EXPECT_GE(s.least_distance(), kClearance - kRounding);
+}
+
+TEST(MeshClearance, ValidateNamesWhatIsMissing) {
+  Sagging s(0.03f, under_sheet(icosphere(0, 0.3f)));
+  const MeshClearance good = s.system();
+  EXPECT_TRUE(good.validate());
+  MeshClearance bad = good;
+  bad.bodies = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.meshes = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.near = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.planes.capacity = 0;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.footprint = {};
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.clearance = -1.0f;
+  EXPECT_FALSE(bad.validate());
+}
+
+}  // namespace
+}  // namespace pleat::test
