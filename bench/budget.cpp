@@ -147,7 +147,8 @@ std::string stage_group(const std::string& system) {
       {"contact_velocity", "collision"},  {"collision_last_word", "collision"},
       {"surface_footprint", "clearance"}, {"surface_capsules", "clearance"},
       {"surface_clearance", "clearance"}, {"particle_normals", "normals"},
-      {"mesh_candidates", "collision"},   {"mesh_clearance", "clearance"}};
+      {"mesh_candidates", "collision"},   {"mesh_clearance", "clearance"},
+      {"fold_sides", "edge_length"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

@@ -84,25 +84,34 @@ inline float curve_length(const PnEdgeSpeeds& squared_speed) {
   return l;
 }
 
+/// The root of the mean squared speed, m: the length where the curve is run through evenly, else a little more.
+inline float mean_square_length(const PnEdge& c) {
+  return std::sqrt(dot(c.d, c.d) + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
+}
+
 /// The height of the fold that a short edge needs, for a straight edge exactly and for a curved one nearly.
 struct FoldHeight {
   float wanted;  // m, the length to reach: deficit^2 / (deficit + onset) closer to the target than without a fold, so
                  // that the height of the fold sets in smoothly
   float beta, gamma;  // of the closed form: length0 dL/dh at h = 0, and its curvature
   float height;       // m, >= 0; 0 where the edge is not short
+  float most;         // m: a fold against the bulge would first have to press that in, at any deficit; it stops here
 };
 
-/// length0: of the curve without a fold; target: what it should have, m; slope: dL/dh at h = 0, >= 0.
-/// The closed form is  h = gap / (beta + sqrt(beta^2 + gamma gap)),  gap = wanted^2 - length0^2.
+/// length0: of the curve without a fold; target: what it should have, m; slope: dL/dh at h = 0, negative where the
+/// fold goes against the bulge. The closed form is  gamma h^2 + 2 beta h = gap,  gap = wanted^2 - length0^2.
 inline FoldHeight fold_height(float length0, float target, float slope) {
   constexpr float kOnset = 0.01f;  // deficit, over the length, at which half of it is closed
+  constexpr float kMost = 2.0f;    // times the height over a straight edge
   constexpr float kTiny = 1e-20f;
   const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
   const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
   const float wanted = length0 + closed, gap = closed * (length0 + wanted);
   const float beta = length0 * slope;
   const float ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
-  return {wanted, beta, gamma, gap / (beta + std::sqrt(beta * beta + gamma * gap) + kTiny)};
+  const float root = std::sqrt(beta * beta + gamma * gap), most = kMost * std::sqrt(gap / gamma);
+  const float height = slope < 0.0f ? (root - beta) / gamma : gap / (beta + root + kTiny);
+  return {wanted, beta, gamma, height < most ? height : most, most};
 }
 
 }  // namespace pleat

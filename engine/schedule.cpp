@@ -43,6 +43,9 @@ void resize_together(std::size_t size, Columns&... columns) {
 /// Makes room for columns that only some settings use, and for the scratch of a tick.
 void make_room(World& world, const ClothRecord& cloth) {
   const std::size_t particles = world.particles.mass.size();
+  const auto at_least = [](auto& column, std::size_t size) {
+    if (column.size() < size) column.resize(size);
+  };
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
     resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
                     world.runge_kutta.velocity_slope);
@@ -68,6 +71,10 @@ void make_room(World& world, const ClothRecord& cloth) {
   const auto at_least = [](auto& column, std::size_t size) {
     if (column.size() < size) column.resize(size);
   };
+  if (folded && cloth.settings.surface == PLEAT_SURFACE_PLEAT) {
+    at_least(world.fold_choices, g.edge_count);
+    at_least(world.fold_springs, (std::size_t{g.face_count} + kLanes - 1) / kLanes);
+  }
   const bool touches_itself = cloth.settings.self_distance > 0.0f;
   if (touches_itself || world.self.pairs.size() != 0) {
     at_least(world.self.sought_at, particles);

@@ -5,6 +5,7 @@
 #include "systems/drawn_tangents.h"
 #include "systems/edge_length.h"
 #include "systems/fold_relaxation.h"
+#include "systems/fold_sides.h"
 #include "systems/particle_normals.h"
 #include "systems/tessellation.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -49,6 +50,10 @@ ClearanceList clearance_planes(ClothTick& t) {
 }
 #endif
 
+const char* with_sides(const World& w, const ClothRecord& c) {
+  return c.settings.surface == PLEAT_SURFACE_PAPER ? "the paper folds outwards" : with_folds(w, c);
+}
+
 constexpr Row kRows[] = {
     {Phase::kFrameEnd, "particle_normals", with_normals,
      [](ClothTick& t) {
@@ -58,6 +63,14 @@ constexpr Row kRows[] = {
                            .normal = t.normal,
                            .fold = t.fold});
      }},
+    {Phase::kFrameEnd, "fold_sides", with_sides,
+     [](ClothTick& t) {
+       run(FoldSides{.garment = &t.garment,
+                     .position = t.position,
+                     .normal = t.normal,
+                     .choices = t.world.fold_choices,
+                     .springs = t.world.fold_springs});
+     }},
     {Phase::kFrameEnd, "edge_length", with_folds,
      [](ClothTick& t) {
        run(EdgeLength{.mode = surface_mode(t.settings),
@@ -65,7 +78,8 @@ constexpr Row kRows[] = {
                       .position = t.position,
                       .normal = t.normal,
                       .fold = t.fold,
-                      .fold_height = t.fold_height});
+                      .fold_height = t.fold_height,
+                      .choices = t.world.fold_choices});
      }},
     {Phase::kFrameEnd, "fold_relaxation", with_fold_relaxation,
      [](ClothTick& t) {

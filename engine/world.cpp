@@ -107,6 +107,8 @@ World::World(const pleat_world_def& definition)
       detection_scratch(&memory),
       self_scratch(&memory),
       cell_scratch(&memory),
+      fold_choices(&memory),
+      fold_springs(&memory),
       footprint(&memory),
       clearance_planes(&memory),
       near_triangles(&memory),

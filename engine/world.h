@@ -13,6 +13,7 @@
 #include "components/clearance_plane.h"
 #include "components/colliders.h"
 #include "components/contacts.h"
+#include "components/fold_choice.h"
 #include "components/garment.h"
 #include "components/mesh_candidates.h"
 #include "components/particles.h"
@@ -122,6 +123,8 @@ struct World {
   Column<float> detection_scratch;
   Column<SelfPair> self_scratch;
   Column<std::uint32_t> cell_scratch;
+  Column<FoldChoice> fold_choices;  // empty unless a cloth folds
+  Column<FoldSprings> fold_springs;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;

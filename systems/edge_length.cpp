@@ -7,7 +7,7 @@
 namespace pleat {
 namespace {
 
-constexpr float kSureSide = 0.15f;  // dL/dh at h = 0 from which on the side of the fold is certain: 4 % of bulge
+constexpr float kSureSide = 0.83f;  // of 1, from which on the fold has its full height
 constexpr float kTiny = 1e-20f;
 
 constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums
@@ -20,7 +20,7 @@ struct Fold {
 };
 
 // Free of branches: the compiler runs it on several edges at once.
-inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
+inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target, float chosen_side) {
   const PnEdgeSpeeds speed2 = squared_speeds(c);
   const float length0 = curve_length(speed2);
 
@@ -38,7 +38,7 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
     rise[i] = q.fold_rate * (dn + q.u_rate * un + q.v_rate * vn);
     slope += q.weight * rise[i] / std::sqrt(speed2[i]);
   }
-  const float side = slope < 0.0f ? -1.0f : 1.0f;
+  const float side = chosen_side < 0.0f ? -1.0f : 1.0f;
   slope *= side;
 
   const FoldHeight start = fold_height(length0, target, slope);
@@ -52,11 +52,12 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target) {
   }
   const float slope_h = (start.beta + start.gamma * h) / start.wanted;  // of the closed form
   h += (start.wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
+  h = h < start.most ? h : start.most;
   h = h > 0.0f ? h : 0.0f;
 
-  const float sure = slope < kSureSide ? slope * (1.0f / kSureSide) : 1.0f;
+  const float sure = chosen_side < 0.0f ? -chosen_side : chosen_side;
   const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
-  const float height = side * sure * (1.5f - 0.5f * sure * sure) * defined * h;
+  const float height = side * (sure < kSureSide ? sure * (1.0f / kSureSide) : 1.0f) * defined * h;
   return {n, target > length0 ? height : 0.0f};
 }
 
@@ -66,10 +67,13 @@ void run_pleat(const EdgeLength& s) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
     EdgeBlock block;
     Vec3Block direction;
-    float height[kLanes];
+    float side[kLanes], height[kLanes];
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      side[lane] = s.choices[begin + std::min(lane, count - 1)].side;
+    }
     block.gather(g, s.position, s.normal, begin, count);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const Fold fold = pleat_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]);
+      const Fold fold = pleat_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane], side[lane]);
       direction.set(lane, fold.direction);
       height[lane] = fold.height;
     }
@@ -134,7 +138,7 @@ void run_paper(const EdgeLength& s) {
 
 bool EdgeLength::validate() const {
   return has_folds(mode) && garment != nullptr && position.x != nullptr && normal.x != nullptr && fold.x != nullptr &&
-         fold_height != nullptr;
+         fold_height != nullptr && (mode != SurfaceMode::kPleat || choices.size() >= garment->edge_count);
 }
 
 void EdgeLength::run() const { mode == SurfaceMode::kPaper ? run_paper(*this) : run_pleat(*this); }

@@ -10,12 +10,13 @@ namespace pleat {
 namespace {
 
 constexpr int kRounds = 2;          // of looking at the folds
-constexpr float kReach = 2.5f;      // of a fold on the tangents at its ends: 2 for a parabola
-constexpr float kSureSide = 0.25f;  // dL/dh at h = 0 at which 70 % of a fold is believed
+constexpr float kTilt = 6.8f;       // of the normals at the ends of a fold, over its steepness
+constexpr float kSureSide = 0.43f;  // dL/dh at h = 0 at which 70 % of a fold is believed
+constexpr float kRounding = 1e-6f;  // of a unit vector's square
 constexpr float kTiny = 1e-20f;
 constexpr float kBaseFallback = 1e-9f;  // the base normal's share in kPaper, below any force but zero
 
-enum class Weighting { kBase, kFolded, kForce };
+enum class Weighting { kBase, kForce };
 
 /// Shares of a face in kPaper: the sums at its corners take them times the cross product of two sides.
 inline std::array<float, 3> force_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& face,
@@ -30,21 +31,19 @@ inline std::array<float, 3> force_shares(const Vec3& a, const Vec3& b, const Vec
   return share;
 }
 
-/// With kFolded the sides of a face leave its corners as s.fold says, else straight.
 template <Weighting weighting>
 void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
   clear(s.normal, g.normal_count);
   for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    Vec3Block x[3], bend[3], sum[3];
+    Vec3Block x[3], sum[3];
     float rest_length[3][kLanes];
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t f = begin + std::min(lane, count - 1);
       for (std::size_t k = 0; k < 3; ++k) {
         x[k].set(lane, s.position[g.face_particle[k][f]]);
         rest_length[k][lane] = g.edge_rest_length[g.face_edge[k][f]];
-        if constexpr (weighting == Weighting::kFolded) bend[k].set(lane, s.fold[g.face_edge[k][f]]);
       }
     }
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -53,14 +52,7 @@ void sum_normals(const ParticleNormals& s) {
       const std::array<float, 3> share = weighting == Weighting::kForce
                                              ? force_shares(a, b, c, face, rest, g.mean_edge_length)
                                              : corner_weights(rest, g.mean_edge_length);
-      if constexpr (weighting == Weighting::kFolded) {
-        const Vec3 ab = bend[0][lane], bc = bend[1][lane], ca = bend[2][lane];
-        sum[0].set(lane, cross(b - a + ab, c - a + ca) * share[0]);
-        sum[1].set(lane, cross(c - b + bc, a - b + ab) * share[1]);
-        sum[2].set(lane, cross(a - c + ca, b - c + bc) * share[2]);
-      } else {
-        for (std::size_t k = 0; k < 3; ++k) sum[k].set(lane, face * share[k]);
-      }
+      for (std::size_t k = 0; k < 3; ++k) sum[k].set(lane, face * share[k]);
     }
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       for (std::size_t k = 0; k < 3; ++k) s.normal.add(g.face_normal[k][begin + lane], sum[k][lane]);
@@ -70,48 +62,51 @@ void sum_normals(const ParticleNormals& s) {
   normalize(s.normal, g.normal_count);
 }
 
-/// How much the fold that a short edge will need turns the tangents at its ends: they go along the chord plus or minus
-/// the returned vector, m. The fold's height is that of a straight edge in closed form, on the
-/// side to which the normals say the edge bulges; the curve's length is the root of its mean squared speed.
-inline Vec3 bend_of_fold(const PnEdge& c, const Vec3& normals, float target) {
-  const float dd = dot(c.d, c.d);
-  const float length0 =
-      std::sqrt(dd + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
-  const Vec3 across = normals - c.d * (dot(normals, c.d) / (dd + kTiny));
+/// How far the fold that a short edge will need tilts the normals at its ends: that at the first by minus the returned
+/// vector, that at the second by plus. The fold is that of a straight edge in closed form, on the side to which the
+/// normals say the edge bulges.
+inline Vec3 tilt_of_fold(const PnEdge& c, const Vec3& normals, float target) {
+  const float dd = dot(c.d, c.d) + kTiny;
+  const Vec3 across = normals - c.d * (dot(normals, c.d) / dd);
   const float width2 = dot(across, across);
   const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
   const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny);  // dL/dh at h = 0
-  const float height = fold_height(length0, target, slope < 0.0f ? -slope : slope).height;
+  const float height = fold_height(mean_square_length(c), target, slope < 0.0f ? -slope : slope).height;
 
   const float believed = slope / std::sqrt(slope * slope + kSureSide * kSureSide);
   const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
-  return n * (2.0f * kReach * height * believed * defined);
+  return c.d * (kTilt * height * believed * defined / dd);
 }
 
-/// Adds to s.fold what the edges' folds do to the tangents. Says whether there are any.
-bool add_folds(const ParticleNormals& s) {
+void tilt_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
-  bool any = false;
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
     EdgeBlock block;
-    Vec3Block bend;
+    Vec3Block tilt;
     block.gather(g, s.position, s.normal, begin, count);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      bend.set(lane, bend_of_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]));
+      tilt.set(lane, tilt_of_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]));
     }
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      s.fold.add(begin + lane, bend[lane]);
-      any |= bend[lane] != Vec3{};
-    }
+    for (std::uint32_t lane = 0; lane < count; ++lane) s.fold.set(begin + lane, tilt[lane]);
   }
-  return any;
+  const auto share = [&](std::uint32_t i) {
+    return 2.0f / static_cast<float>(std::max(g.around_begin[i + 1] - g.around_begin[i], 1u));
+  };
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const Vec3 tilt = s.fold[e];
+    s.normal.add(g.edge_normal[0][e], tilt * -share(g.edge_particle[0][e]));
+    s.normal.add(g.edge_normal[1][e], tilt * share(g.edge_particle[1][e]));
+  }
+  for (std::uint32_t i = 0; i < g.normal_count; ++i) {
+    const Vec3 n = s.normal[i];
+    if (std::abs(dot(n, n) - 1.0f) > kRounding) s.normal.set(i, normalized_or(n, kAnyNormal));  // else bit for bit
+  }
 }
 
 void run_pleat(const ParticleNormals& s) {
   sum_normals<Weighting::kBase>(s);
-  clear(s.fold, s.garment->edge_count);
-  for (int round = 0; round < kRounds && add_folds(s); ++round) sum_normals<Weighting::kFolded>(s);
+  for (int round = 0; round < kRounds; ++round) tilt_normals(s);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace pleat {
 
 /// n_i = N_i / |N_i|, a sum over the faces j around i with unit normals n_j:
 ///   kPaper      N_i = sum |f_i^j| n_j, eq (3); the base normal only where no force is
-///   kPleat      N_i = sum w_ij n_j, twice more with n_j of sides that leave i as the folds over short edges bend them
+///   kPleat      the base normal, tilted twice by the folds that the short edges at i will need
 ///   others      N_i = sum w_ij n_j: the base normal. w_ij is about 1, less as the face collapses (base_normal.h)
 /// f_i^j is eq (4), the sum of the forces of eq (1) along the face's two edges at i. The stiffness k is common to all
 /// forces and drops out. kPleat leaves forces aside: on relaxed cloth their ratios are noise, which turns the normals

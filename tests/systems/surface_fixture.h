@@ -9,6 +9,7 @@
 #include "components/shapes.h"
 #include "systems/drawn_normals.h"
 #include "systems/edge_length.h"
+#include "systems/fold_sides.h"
 #include "systems/particle_normals.h"
 #include "systems/tessellation.h"
 
@@ -36,6 +37,8 @@ struct Surface {
   TessellationPattern pattern;
   Vec3Column position, normal, fold, drawn, drawn_normal;
   Column<float> fold_height;
+  std::vector<FoldChoice> choices;
+  std::vector<FoldSprings> springs;
   SurfaceMode mode = SurfaceMode::kPleat;
 
   explicit Surface(const Mesh& mesh, std::uint32_t level = 0) : Surface(garment_of(mesh), level) {}
@@ -52,6 +55,8 @@ struct Surface {
     normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
     fold_height.resize(garment.edge_count);
+    choices.resize(garment.edge_count);
+    springs.resize((garment.face_count + kLanes - 1) / kLanes);
     drawn.resize(pattern.vertex_count);
     drawn_normal.resize(pattern.shaded_count());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
@@ -68,7 +73,10 @@ struct Surface {
   }
 
   ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view(), fold.view()}; }
-  EdgeLength edge_length() { return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data()}; }
+  FoldSides fold_sides() { return {&garment, position.view(), normal.view(), choices, springs}; }
+  EdgeLength edge_length() {
+    return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), choices};
+  }
   Tessellation tessellation() {
     return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
   }
@@ -76,6 +84,7 @@ struct Surface {
 
   void run() {
     particle_normals().run();
+    if (mode == SurfaceMode::kPleat) fold_sides().run();
     if (has_folds(mode)) edge_length().run();
     tessellation().run();
     drawn_normals().run();

@@ -1,0 +1,31 @@
+// To which side each short edge folds.
+#pragma once
+
+#include <span>
+
+#include "components/fold_choice.h"
+#include "components/garment.h"
+
+namespace pleat {
+
+/// A short edge may fold to either side of its PN curve. The curve bulges to one of them, and that is the first guess.
+/// But cloth that is folded is no longer than at rest in between either: the middles of two edges of a face are half
+/// of its third edge apart. So springs between the middles of the edges are asked, three times for all edges at
+/// once: an edge goes to the side where the springs to its four neighbours, as they stand, and its own smaller bump
+/// have less energy. Undecided sides stay between the two, so that the choice is smooth in the positions.
+/// Reads:  garment faces, edges and rest lengths; position (P) m; normal (N) unit
+/// Writes: choices (E), of which side is the answer: against or along the sum of the normals at the edge's ends;
+///         springs (F / kLanes, rounded up), scratch
+/// Cost:   O(E + F), no allocation. Errors: none.
+struct FoldSides {
+  const Garment* garment = nullptr;
+  ConstVec3View position;
+  ConstVec3View normal;
+  std::span<FoldChoice> choices;
+  std::span<FoldSprings> springs;
+
+  bool validate() const;
+  void run() const;
+};
+
+}  // namespace pleat
