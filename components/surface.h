@@ -26,8 +26,9 @@ struct SurfaceColumns {
   Vec3Column normal;          // unit, as the garment counts normals
   Vec3Column fold;            // unit, per edge: direction in which its midpoint is moved
   Column<float> fold_height;  // m, per edge: how far; 0 where the edge is not short. Negative folds inward
+  Column<float> fold_side;    // per edge, -1 .. 1: to which side of its curve it folds, inward, undecided or outward
 
-  explicit SurfaceColumns(std::pmr::memory_resource* m) : normal(m), fold(m), fold_height(m) {}
+  explicit SurfaceColumns(std::pmr::memory_resource* m) : normal(m), fold(m), fold_height(m), fold_side(m) {}
 };
 
 /// Scratch of fold relaxation, one element per edge of one cloth at a time.

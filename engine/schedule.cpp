@@ -58,7 +58,7 @@ void make_room(World& world, const ClothRecord& cloth) {
   }
   if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(normals);
   const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
-  if (folded || world.surface.fold.size() != 0) resize_together(edges, world.surface.fold, world.surface.fold_height);
+  if (folded || world.surface.fold.size() != 0) resize_together(edges, world.surface.fold, world.surface.fold_height, world.surface.fold_side);
   if ((cloth.settings.tangents != 0 && cloth.pattern() != nullptr) || world.drawn.tangent.size() != 0) {
     resize_together(world.drawn.position.size(), world.drawn.tangent, world.drawn.handedness);
   }
@@ -68,9 +68,6 @@ void make_room(World& world, const ClothRecord& cloth) {
     resize_together(cloth.garment().edge_count, scratch.middle, scratch.pull, scratch.half_length, scratch.freedom);
   }
   const Garment& g = cloth.garment();
-  const auto at_least = [](auto& column, std::size_t size) {
-    if (column.size() < size) column.resize(size);
-  };
   if (folded && cloth.settings.surface == PLEAT_SURFACE_PLEAT) {
     at_least(world.fold_choices, g.edge_count);
     at_least(world.fold_springs, (std::size_t{g.face_count} + kLanes - 1) / kLanes);
@@ -175,6 +172,7 @@ void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   const Stats before = world.stats;
   const std::uint32_t n = substeps_for(t, dt);
   t.dt = dt / static_cast<float>(n);
+  t.frame_dt = dt;
   world.contact_count = 0;
   for (std::uint32_t s = 0; s < n; ++s) {
     t.t0 = static_cast<float>(s) / static_cast<float>(n);
@@ -259,6 +257,7 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
   if (w.surface.fold.size() != 0) {
     fold = w.surface.fold.view().from(c.edge_begin);
     fold_height = w.surface.fold_height.data() + c.edge_begin;
+    fold_side = w.surface.fold_side.data() + c.edge_begin;
   }
   if (w.drawn.position.size() != 0) {
     drawn_position = w.drawn.position.view().from(c.drawn_begin);

@@ -69,7 +69,9 @@ constexpr Row kRows[] = {
                      .position = t.position,
                      .normal = t.normal,
                      .choices = t.world.fold_choices,
-                     .springs = t.world.fold_springs});
+                     .springs = t.world.fold_springs,
+                     .kept = t.frame_dt > 0.0f ? FoldSides::kept_after(t.frame_dt) : 0.0f,
+                     .side = t.fold_side});
      }},
     {Phase::kFrameEnd, "edge_length", with_folds,
      [](ClothTick& t) {
@@ -79,7 +81,7 @@ constexpr Row kRows[] = {
                       .normal = t.normal,
                       .fold = t.fold,
                       .fold_height = t.fold_height,
-                      .choices = t.world.fold_choices});
+                      .side = t.fold_side});
      }},
     {Phase::kFrameEnd, "fold_relaxation", with_fold_relaxation,
      [](ClothTick& t) {

@@ -19,6 +19,7 @@ struct ClothTick {
 
   float dt = 0.0f;             // s, of the present substep
   float t0 = 0.0f, t1 = 1.0f;  // the present substep's begin and end as fractions of the tick
+  float frame_dt = 0.0f;       // s, of the tick; 0 when the surface is brought up to date between ticks
   int stage = 0;               // of the integrator
   double time = 0.0;           // s, when the present substep begins
   Vec3 air;                    // m/s, velocity of the air now
@@ -28,7 +29,7 @@ struct ClothTick {
   const float* mass;
   ConstVec3View pin_previous, pin_next;
   Vec3View normal, fold, drawn_position, drawn_normal, drawn_tangent;  // null where no cloth needs them
-  float *fold_height = nullptr, *drawn_handedness = nullptr;
+  float *fold_height = nullptr, *fold_side = nullptr, *drawn_handedness = nullptr;
 
   ClothTick(World& w, ClothRecord& c);
 };

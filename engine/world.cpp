@@ -209,6 +209,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   erase_if_present(world.surface.normal, cloth.normal_begin, normals);
   erase_if_present(world.surface.fold, cloth.edge_begin, edges);
   erase_if_present(world.surface.fold_height, cloth.edge_begin, edges);
+  erase_if_present(world.surface.fold_side, cloth.edge_begin, edges);
   close_drawn_gap(world, cloth);
 
   world.clothes.erase(world.clothes.begin() + position);
@@ -245,7 +246,7 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
       5 * sizeof(Vec3) + 2 * sizeof(float) + (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
       (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(SelfPair) : 0);
   const std::uint64_t normal = world.surface.normal.size() != 0 ? sizeof(Vec3) : 0;
-  const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0;
+  const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + 2 * sizeof(float) : 0;
   const std::uint64_t drawn = 2 * sizeof(Vec3) + (world.drawn.tangent.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0);
   return sizeof(ClothRecord) + range_of(g.particle_count) * particle + range_of(g.pins.size()) * 2 * sizeof(Vec3) +
          range_of(g.normal_count) * normal + range_of(g.edge_count) * edge + drawn_range(cloth) * drawn;

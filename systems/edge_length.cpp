@@ -7,7 +7,7 @@
 namespace pleat {
 namespace {
 
-constexpr float kSureSide = 0.83f;  // of 1, from which on the fold has its full height
+constexpr float kSureSide = 0.5f;  // of 1, from which on the fold has its full height
 constexpr float kTiny = 1e-20f;
 
 constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums
@@ -69,7 +69,7 @@ void run_pleat(const EdgeLength& s) {
     Vec3Block direction;
     float side[kLanes], height[kLanes];
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      side[lane] = s.choices[begin + std::min(lane, count - 1)].side;
+      side[lane] = s.side[begin + std::min(lane, count - 1)];
     }
     block.gather(g, s.position, s.normal, begin, count);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -138,7 +138,7 @@ void run_paper(const EdgeLength& s) {
 
 bool EdgeLength::validate() const {
   return has_folds(mode) && garment != nullptr && position.x != nullptr && normal.x != nullptr && fold.x != nullptr &&
-         fold_height != nullptr && (mode != SurfaceMode::kPleat || choices.size() >= garment->edge_count);
+         fold_height != nullptr && (mode != SurfaceMode::kPleat || side != nullptr);
 }
 
 void EdgeLength::run() const { mode == SurfaceMode::kPaper ? run_paper(*this) : run_pleat(*this); }

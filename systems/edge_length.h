@@ -2,9 +2,6 @@
 //   M. Oshita, A. Makinouchi, "Real-time Cloth Simulation with Sparse Particles and Curved Faces", 2001, section 3.3.
 #pragma once
 
-#include <span>
-
-#include "components/fold_choice.h"
 #include "components/garment.h"
 #include "components/surface.h"
 
@@ -23,7 +20,7 @@ namespace pleat {
 ///   n       the quadratic normal of the PN triangle; h > 0
 ///   target  the straight rest length. The two halves are PN curves anew, over a-p' and p'-b
 ///   h       by bisection from eq (6) to 0.1 % of the length, lengths measured as sums of chords
-/// Reads:  garment edges and rest lengths; position (P) m; normal (N) unit; for kPleat the side of choices (E)
+/// Reads:  garment edges and rest lengths; position (P) m; normal (N) unit; for kPleat side (E)
 /// Writes: fold (E) n, unit; fold_height (E) h, m
 /// Cost:   O(E), no allocation. Errors: none; where n is undefined h is 0 (kPleat) or n is an end's normal (kPaper).
 struct EdgeLength {
@@ -33,7 +30,7 @@ struct EdgeLength {
   ConstVec3View normal;
   Vec3View fold;
   float* fold_height = nullptr;
-  std::span<const FoldChoice> choices = {};  // kPleat only
+  const float* side = nullptr;  // as fold_sides leaves it; kPleat only
 
   bool validate() const;
   void run() const;

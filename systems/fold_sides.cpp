@@ -1,6 +1,7 @@
 #include "systems/fold_sides.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/edge_block.h"
 
@@ -9,8 +10,9 @@ namespace {
 
 constexpr int kSweeps = 3;
 constexpr float kSureSide = 0.36f;  // dL/dh at h = 0 from which on the first guess is certain
-constexpr float kBump = 1.5f;       // energy of a fold as high as its edge is long, beside that of the springs
-constexpr float kDecisive = 0.08f;  // difference of energy from which on a side is certain
+constexpr float kBump = 3.0f;       // energy of a fold as high as its edge is long, beside that of the springs
+constexpr float kDecisive = 0.05f;  // difference of energy from which on a side is certain
+constexpr float kSideTime = 0.08f;  // s in which a fold goes most of its way to the other side
 constexpr float kTiny = 1e-20f;
 
 /// -1 .. 1, smooth up to both ends.
@@ -125,9 +127,11 @@ void decide(const FoldSides& s) {
 
 }  // namespace
 
+float FoldSides::kept_after(float dt) { return std::exp(dt * (-1.0f / kSideTime)); }
+
 bool FoldSides::validate() const {
-  return garment != nullptr && position.x != nullptr && normal.x != nullptr && choices.size() >= garment->edge_count &&
-         springs.size() * kLanes >= garment->face_count;
+  return garment != nullptr && position.x != nullptr && normal.x != nullptr && side != nullptr &&
+         choices.size() >= garment->edge_count && springs.size() * kLanes >= garment->face_count;
 }
 
 void FoldSides::run() const {
@@ -136,6 +140,9 @@ void FoldSides::run() const {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     ask_springs(*this);
     decide(*this);
+  }
+  for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
+    side[e] = kept > 0.0f ? choices[e].side + kept * (side[e] - choices[e].side) : choices[e].side;
   }
 }
 

@@ -12,10 +12,11 @@ namespace pleat {
 /// But cloth that is folded is no longer than at rest in between either: the middles of two edges of a face are half
 /// of its third edge apart. So springs between the middles of the edges are asked, three times for all edges at
 /// once: an edge goes to the side where the springs to its four neighbours, as they stand, and its own smaller bump
-/// have less energy. Undecided sides stay between the two, so that the choice is smooth in the positions.
+/// have less energy. Where both sides cost about the same a small move can turn the choice. The drawn side follows it
+/// in time, through no fold at all, so that nothing pops.
 /// Reads:  garment faces, edges and rest lengths; position (P) m; normal (N) unit
-/// Writes: choices (E), of which side is the answer: against or along the sum of the normals at the edge's ends;
-///         springs (F / kLanes, rounded up), scratch
+/// Writes: side (E), -1 .. 1: against, undecided or along the sum of the normals at the edge's ends; read as well, as
+///         the last frame left it; choices (E) and springs (F / kLanes, rounded up), scratch
 /// Cost:   O(E + F), no allocation. Errors: none.
 struct FoldSides {
   const Garment* garment = nullptr;
@@ -23,6 +24,11 @@ struct FoldSides {
   ConstVec3View normal;
   std::span<FoldChoice> choices;
   std::span<FoldSprings> springs;
+  float kept = 0.0f;  // share of the last frame's side that stays, 0 .. 1; 0 where there was no last frame
+  float* side = nullptr;
+
+  /// `kept` for a frame dt seconds after the last one.
+  static float kept_after(float dt);
 
   bool validate() const;
   void run() const;

@@ -83,11 +83,23 @@ TEST(FoldSides, SmoothInThePositions) {
   std::vector<float> last;
   for (int step = 0; step <= 400; ++step) {
     s.position.view().set(moved, start + Vec3{0.0f, 1e-4f * static_cast<float>(step), 0.0f});
+    if (step > 0) s.follow(s, 1e-3f);
     s.run();
     for (std::uint32_t e = 0; e < s.garment.edge_count && step > 0; ++e) {
       EXPECT_NEAR(s.fold_height[e], last[e], 4e-3f) << e << " at " << step;
     }
     last.assign(s.fold_height.begin(), s.fold_height.end());
+  }
+}
+
+TEST(FoldSides, FollowsItsChoiceInTime) {
+  Surface s = pushed(9, 0.85f, 0.04f, 3.0f), later = pushed(9, 0.85f, 0.04f, 3.0f);
+  s.run();
+  std::ranges::fill(later.fold_side, 1.0f);
+  later.kept = 0.75f;
+  later.run();
+  for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+    EXPECT_NEAR(later.fold_side[e], 0.75f + 0.25f * s.fold_side[e], 1e-6f) << e;
   }
 }
 
@@ -114,6 +126,8 @@ TEST(FoldSides, ValidateRefusesWhatIsMissing) {
   f = s.fold_sides(), f.normal = {};
   EXPECT_FALSE(f.validate());
   f = s.fold_sides(), f.choices = f.choices.first(3);
+  EXPECT_FALSE(f.validate());
+  f = s.fold_sides(), f.side = nullptr;
   EXPECT_FALSE(f.validate());
   f = s.fold_sides(), f.springs = {};
   EXPECT_FALSE(f.validate());

@@ -1,6 +1,7 @@
 // A cloth with its curved surface, run stage by stage as the engine does.
 #pragma once
 
+#include <algorithm>
 #include <memory_resource>
 #include <random>
 #include <vector>
@@ -36,9 +37,10 @@ struct Surface {
   Garment garment;
   TessellationPattern pattern;
   Vec3Column position, normal, fold, drawn, drawn_normal;
-  Column<float> fold_height;
+  Column<float> fold_height, fold_side;
   std::vector<FoldChoice> choices;
   std::vector<FoldSprings> springs;
+  float kept = 0.0f;  // of the last frame's sides
   SurfaceMode mode = SurfaceMode::kPleat;
 
   explicit Surface(const Mesh& mesh, std::uint32_t level = 0) : Surface(garment_of(mesh), level) {}
@@ -50,11 +52,12 @@ struct Surface {
         fold(m),
         drawn(m),
         drawn_normal(m),
-        fold_height(m) {
+        fold_height(m),
+        fold_side(m) {
     position.resize(garment.particle_count);
     normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
-    fold_height.resize(garment.edge_count);
+    fold_height.resize(garment.edge_count), fold_side.resize(garment.edge_count);
     choices.resize(garment.edge_count);
     springs.resize((garment.face_count + kLanes - 1) / kLanes);
     drawn.resize(pattern.vertex_count);
@@ -73,15 +76,22 @@ struct Surface {
   }
 
   ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view(), fold.view()}; }
-  FoldSides fold_sides() { return {&garment, position.view(), normal.view(), choices, springs}; }
+  FoldSides fold_sides() {
+    return {&garment, position.view(), normal.view(), choices, springs, kept, fold_side.data()};
+  }
   EdgeLength edge_length() {
-    return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), choices};
+    return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), fold_side.data()};
   }
   Tessellation tessellation() {
     return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
   }
   DrawnNormals drawn_normals() { return {&pattern, drawn.view(), drawn_normal.view()}; }
 
+  /// The next run is `dt` seconds after the last one of `before`.
+  void follow(const Surface& before, float dt) {
+    std::ranges::copy(before.fold_side, fold_side.begin());
+    kept = FoldSides::kept_after(dt);
+  }
   void run() {
     particle_normals().run();
     if (mode == SurfaceMode::kPleat) fold_sides().run();
