@@ -140,7 +140,7 @@ TEST(EdgeLength, PleatMeetsItsTarget) {
       EXPECT_NEAR(edges.height[e], 0.0f, 1e-3f * static_cast<float>(rest));
       continue;
     }
-    const double target = l0 + deficit * deficit / (deficit + 0.005 * rest);
+    const double target = l0 + deficit * deficit / (deficit + 0.0045 * rest);
     const Point n = edges.direction(e);
     const double step = 1e-4 * rest, slope = (c.folded_length(n * step) - c.folded_length(n * -step)) / (2.0 * step);
     EXPECT_GE(edges.sides[e] * edges.height[e], 0.0f);
