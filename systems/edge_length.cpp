@@ -7,7 +7,7 @@
 namespace pleat {
 namespace {
 
-constexpr float kSureSide = 0.5f;  // of 1, from which on the fold has its full height
+constexpr float kSureSide = 0.4f;  // of 1, from which on the fold has its full height
 constexpr float kTiny = 1e-20f;
 
 constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left to the error of the chord sums
