@@ -102,7 +102,7 @@ struct FoldHeight {
 /// fold goes against the bulge. The closed form is  gamma h^2 + 2 beta h = gap,  gap = wanted^2 - length0^2.
 inline FoldHeight fold_height(float length0, float target, float slope) {
   constexpr float kOnset = 0.0045f;  // deficit, over the length, at which half of it is closed
-  constexpr float kMost = 2.0f;    // times the height over a straight edge
+  constexpr float kMost = 2.0f;      // times the height over a straight edge
   constexpr float kTiny = 1e-20f;
   const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
   const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);

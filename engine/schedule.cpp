@@ -58,7 +58,8 @@ void make_room(World& world, const ClothRecord& cloth) {
   }
   if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(normals);
   const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
-  if (folded || world.surface.fold.size() != 0) resize_together(edges, world.surface.fold, world.surface.fold_height, world.surface.fold_side);
+  if (folded || world.surface.fold.size() != 0)
+    resize_together(edges, world.surface.fold, world.surface.fold_height, world.surface.fold_side);
   if ((cloth.settings.tangents != 0 && cloth.pattern() != nullptr) || world.drawn.tangent.size() != 0) {
     resize_together(world.drawn.position.size(), world.drawn.tangent, world.drawn.handedness);
   }
