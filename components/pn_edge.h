@@ -89,6 +89,18 @@ inline float mean_square_length(const PnEdge& c) {
   return std::sqrt(dot(c.d, c.d) + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
 }
 
+/// The direction in which an edge folds: across the tangent of its middle, towards the sum of its ends' normals.
+struct FoldDirection {
+  Vec3 n;         // unit
+  float defined;  // 0 .. 1: less than 1 where the normals nearly oppose each other, since n turns at random there
+};
+inline FoldDirection fold_direction(const Vec3& tangent, const Vec3& normals) {
+  constexpr float kTiny = 1e-20f;
+  const Vec3 across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
+  const float width2 = dot(across, across);
+  return {across * (1.0f / std::sqrt(width2 + kTiny)), 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f};
+}
+
 /// The height of the fold that a short edge needs, for a straight edge exactly and for a curved one nearly.
 struct FoldHeight {
   float wanted;  // m, the length to reach: deficit^2 / (deficit + onset) closer to the target than without a fold, so

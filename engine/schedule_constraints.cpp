@@ -6,7 +6,6 @@
 #include "systems/velocity_update.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/capsule_detection.h"
-#include "systems/collider_motion.h"
 #include "systems/collision_bodies.h"
 #include "systems/collision_response.h"
 #include "systems/contact_friction.h"
@@ -61,19 +60,7 @@ constexpr Row kRows[] = {
      }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
-       World& w = t.world;
-       run(ColliderMotion{.capsules = &w.capsules,
-                          .bodies = w.bodies.get(),
-                          .particle_count = t.garment.particle_count,
-                          .position = t.position,
-                          .reach =
-                              t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count),
-                          .t0 = t.t0,
-                          .t1 = t.t1,
-                          .poses = w.capsule_poses.data(),
-                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
-                          .pose_count = &w.capsule_pose_count},
-           w.stats);
+       move_capsules(t, t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count));
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {

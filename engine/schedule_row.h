@@ -4,6 +4,10 @@
 #include <cassert>
 
 #include "engine/schedule_table.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/collider_motion.h"
+#include "systems/collision_bodies.h"
+#endif
 
 namespace pleat {
 
@@ -36,6 +40,22 @@ inline const char* with_contacts(const World& w, const ClothRecord& c) {
 }
 
 #ifdef PLEAT_WITH_COLLISION
+/// The poses of the capsules within `reach` of the cloth, m.
+inline void move_capsules(ClothTick& t, float reach) {
+  World& w = t.world;
+  run(ColliderMotion{.capsules = &w.capsules,
+                     .bodies = w.bodies.get(),
+                     .particle_count = t.garment.particle_count,
+                     .position = t.position,
+                     .reach = reach,
+                     .t0 = t.t0,
+                     .t1 = t.t1,
+                     .poses = w.capsule_poses.data(),
+                     .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
+                     .pose_count = &w.capsule_pose_count},
+      w.stats);
+}
+
 inline ContactList contacts_of(ClothTick& t) {
   World& w = t.world;
   return {w.contacts.data(), static_cast<std::uint32_t>(w.contacts.size()), &w.contact_count};

@@ -9,7 +9,6 @@
 #include "systems/particle_normals.h"
 #include "systems/tessellation.h"
 #ifdef PLEAT_WITH_COLLISION
-#include "systems/collider_motion.h"
 #include "systems/mesh_clearance.h"
 #include "systems/surface_clearance.h"
 #endif
@@ -117,18 +116,7 @@ constexpr Row kRows[] = {
      }},
     {Phase::kFrameEnd, "surface_capsules", with_capsules,
      [](ClothTick& t) {
-       World& w = t.world;
-       run(ColliderMotion{.capsules = &w.capsules,
-                          .bodies = w.bodies.get(),
-                          .particle_count = t.garment.particle_count,
-                          .position = t.position,
-                          .reach = t.garment.mean_edge_length,  // the surface bulges less than that
-                          .t0 = t.t0,
-                          .t1 = t.t1,
-                          .poses = w.capsule_poses.data(),
-                          .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
-                          .pose_count = &w.capsule_pose_count},
-           w.stats);
+       move_capsules(t, t.garment.mean_edge_length);  // the surface bulges less than that
      }},
     {Phase::kFrameEnd, "mesh_clearance", with_meshes,
      [](ClothTick& t) {

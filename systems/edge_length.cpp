@@ -24,10 +24,7 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target, float
   const PnEdgeSpeeds speed2 = squared_speeds(c);
   const float length0 = curve_length(speed2);
 
-  const Vec3 tangent = c.middle_tangent();
-  const Vec3 across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
-  const float width2 = dot(across, across);
-  const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
+  const auto [n, defined] = fold_direction(c.middle_tangent(), normals);
 
   // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
   const float dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
@@ -56,7 +53,6 @@ inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target, float
   h = h > 0.0f ? h : 0.0f;
 
   const float sure = chosen_side < 0.0f ? -chosen_side : chosen_side;
-  const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
   const float height = side * (sure < kSureSide ? sure * (1.0f / kSureSide) : 1.0f) * defined * h;
   return {n, target > length0 ? height : 0.0f};
 }

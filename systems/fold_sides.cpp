@@ -24,12 +24,8 @@ inline float saturate(float x) {
 inline float height_at(float side, float up, float down) { return side * (side > 0.0f ? up : -down); }
 
 inline FoldChoice first_guess(const PnEdge& c, const Vec3& normals, float target) {
-  const Vec3 tangent = c.middle_tangent();
-  const Vec3 across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
-  const float width2 = dot(across, across);
-  const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
+  const auto [n, defined] = fold_direction(c.middle_tangent(), normals);
   const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny), length0 = mean_square_length(c);
-  const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;
   const float up = defined * fold_height(length0, target, slope).height;
   const float down = -defined * fold_height(length0, target, -slope).height;
   const float side = saturate(slope * (1.0f / kSureSide));

@@ -67,14 +67,11 @@ void sum_normals(const ParticleNormals& s) {
 /// normals say the edge bulges.
 inline Vec3 tilt_of_fold(const PnEdge& c, const Vec3& normals, float target) {
   const float dd = dot(c.d, c.d) + kTiny;
-  const Vec3 across = normals - c.d * (dot(normals, c.d) / dd);
-  const float width2 = dot(across, across);
-  const Vec3 n = across * (1.0f / std::sqrt(width2 + kTiny));
+  const auto [n, defined] = fold_direction(c.d, normals);
   const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny);  // dL/dh at h = 0
   const float height = fold_height(mean_square_length(c), target, slope < 0.0f ? -slope : slope).height;
 
   const float believed = slope / std::sqrt(slope * slope + kSureSide * kSureSide);
-  const float defined = 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f;  // n turns at random where the normals oppose
   return c.d * (kTilt * height * believed * defined / dd);
 }
 
