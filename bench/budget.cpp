@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <map>
 
 #include "bench/counting_new.h"
@@ -37,27 +38,44 @@ void host_frame(Scene& scene, std::vector<DrawnSurface>& surfaces) {
   for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
 }
 
+/// The same with a peer, which draws its bare particles.
+void host_frame(BulletScene& scene, std::vector<float>& particles) {
+  scene.step();
+  for (size_t k = 0; k < scene.copies(); ++k) scene.read_particles(k, particles);
+}
+
 struct TimedRun {
   std::vector<double> frames;  // us
   uint64_t allocations = 0;    // after warm-up
 };
 
-TimedRun time_frames(const pleat_api& api, const SceneDef& def, Progress& progress) {
-  Scene scene(api, def);
-  std::vector<DrawnSurface> surfaces = make_surfaces(scene);
+template <class SceneT, class Drawn>
+TimedRun time_frames(SceneT& scene, Drawn& drawn, Progress& progress) {
   TimedRun run;
-  run.frames.reserve(def.frames);
-  for (uint32_t frame = 0; frame < def.frames; ++frame) {
+  run.frames.reserve(scene.def().frames);
+  for (uint32_t frame = 0; frame < scene.def().frames; ++frame) {
     scene.pose_next();
     const uint64_t allocations = allocation_count();
     const auto start = std::chrono::steady_clock::now();
-    host_frame(scene, surfaces);
+    host_frame(scene, drawn);
     const auto end = std::chrono::steady_clock::now();
     if (frame >= kWarmUp) run.allocations += allocation_count() - allocations;
     run.frames.push_back(std::chrono::duration<double, std::micro>(end - start).count());
     progress.step();
   }
   return run;
+}
+
+TimedRun time_frames(const pleat_api& api, const SceneDef& def, Progress& progress) {
+  Scene scene(api, def);
+  std::vector<DrawnSurface> surfaces = make_surfaces(scene);
+  return time_frames(scene, surfaces, progress);
+}
+
+TimedRun time_frames(const BulletSettings& settings, const SceneDef& def, Progress& progress) {
+  BulletScene scene(def, settings);
+  std::vector<float> particles;
+  return time_frames(scene, particles, progress);
 }
 
 std::vector<StageClock::Stage> time_stages(const pleat_api& api, const SceneDef& def, Progress& progress) {
@@ -129,6 +147,27 @@ void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progre
   budget.quality = quality.result();
 }
 
+demo::Quality peer_quality(const pleat_api& api, const SceneDef& def, const BulletSettings& settings) {
+  const Scene ours(api, def);
+  SceneQuality quality(ours);
+  BulletScene peer(def, settings);
+  for (uint32_t frame = 0; frame < def.frames; ++frame) {
+    peer.advance();
+    quality.add_frame(peer, {});
+  }
+  quality.measure_rest(peer);
+  return quality.result();
+}
+
+/// Frame by frame, ours over the peer's of the run that came next.
+double median_ratio(const std::vector<std::vector<double>>& ours, const std::vector<std::vector<double>>& peer) {
+  std::vector<double> ratios;
+  for (size_t r = 0; r < ours.size(); ++r) {
+    std::ranges::transform(ours[r], peer[r], std::back_inserter(ratios), std::divides());
+  }
+  return demo::spread_of(std::move(ratios)).median;
+}
+
 }  // namespace
 
 std::string stage_group(const std::string& system) {
@@ -161,21 +200,23 @@ double stage_sum(const std::vector<NamedSpread>& stages, std::span<const std::st
   return sum;
 }
 
-Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat) {
+Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat,
+                      const std::optional<BulletSettings>& peer) {
   Budget budget{};
   budget.repeat = repeat;
   const bool folds = def.settings.surface == PLEAT_SURFACE_PAPER || def.settings.surface == PLEAT_SURFACE_PLEAT;
   SceneDef pn = def;
   pn.settings.surface = PLEAT_SURFACE_PN;
-  Progress progress("measuring, frame", def.frames * (repeat * (folds ? 3 : 2) + 1));
+  Progress progress("measuring, frame", def.frames * (repeat * ((folds ? 3u : 2u) + (peer ? 1u : 0u)) + 1));
 
-  std::vector<std::vector<double>> frames;
+  std::vector<std::vector<double>> frames, peer_frames;
   StageRuns systems, groups, pn_groups;
   uint64_t allocations = 0;
   for (uint32_t r = 0; r < repeat; ++r) {  // in turn, so that a slow moment of the machine meets all alike
     TimedRun run = time_frames(api, def, progress);
     allocations += run.allocations;
     frames.push_back(std::move(run.frames));
+    if (peer) peer_frames.push_back(time_frames(*peer, def, progress).frames);
     systems.push_back(time_stages(api, def, progress));
     groups.push_back(by_group(systems.back()));
     if (folds) pn_groups.push_back(by_group(time_stages(api, pn, progress)));
@@ -186,6 +227,12 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
   if (def.frames > kWarmUp) budget.allocations_per_frame = double(allocations) / repeat / (def.frames - kWarmUp);
   if (folds) budget.pn_smoothing = stage_sum(best_stages(pn_groups), kSmoothingStages);
   measure_quality(api, def, progress, budget);
+  if (peer) {
+    const Spread frame = best_of(peer_frames);
+    budget.peer = {
+        *peer, frame, peer_quality(api, def, *peer), median_ratio(frames, peer_frames),
+        (stage_sum(budget.stages, kIntegrationStages) + stage_sum(budget.stages, kCollisionStages)) / frame.median};
+  }
   budget.surface = demo::measure_surface(api, def);
   if (folds) budget.pn_surface = demo::measure_surface(api, pn);
   return budget;

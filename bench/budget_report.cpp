@@ -49,6 +49,15 @@ void print_quality(const Quality& quality) {
   for (const auto& [name, value] : json.items()) std::printf("%-28s %10.4f\n", name.c_str(), value.get<double>());
 }
 
+void print_peer(const Peer& peer) {
+  std::printf("\nBullet's soft body %s, %d iterations, its bare particles\n", BulletScene::version().c_str(),
+              peer.settings.iterations);
+  print_row("frame", peer.frame);
+  print_quality(peer.quality);
+  std::printf("%-28s %10.2f\n", "our frame / its frame", peer.ratio_frame);
+  std::printf("%-28s %10.2f\n", "our dynamics / its frame", peer.ratio_dynamics);
+}
+
 /// Of what is measured of a drawn surface, in the order of the report.
 constexpr struct {
   const char* name;
@@ -123,6 +132,7 @@ void print_budget(const demo::SceneDef& def, const Budget& budget) {
   print_beside_paper(budget);
   print_quality(budget.quality);
   print_surface(budget);
+  if (budget.peer) print_peer(*budget.peer);
 }
 
 nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& def, const Budget& budget) {
@@ -148,6 +158,15 @@ nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& d
   for (const auto& [phase, ratio] : accelerations_over_pn(budget))
     json["surface"][phase]["acceleration_over_pn"] = ratio;
   if (budget.pn_surface) json["pn_surface"] = to_json(*budget.pn_surface);
+  if (const auto& peer = budget.peer) {
+    json["peer"] = {{"name", "Bullet soft body"},
+                    {"version", BulletScene::version()},
+                    {"iterations", peer->settings.iterations},
+                    {"frame_us", to_json(peer->frame)},
+                    {"quality", to_json(peer->quality)},
+                    {"ratio_frame", peer->ratio_frame},
+                    {"ratio_dynamics", peer->ratio_dynamics}};
+  }
   json["machine"] = describe_machine(api);
   return json;
 }

@@ -1,5 +1,6 @@
 // The program `frame_budget`: what a frame of a scene costs, stage by stage, and how good the cloth is for it.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -17,6 +18,18 @@
 namespace {
 
 using pleat::demo::kBadInput;
+
+/// None where the text names no peer.
+std::optional<pleat::bench::BulletSettings> parse_peer(const std::string& text) {
+  pleat::bench::BulletSettings settings;
+  if (text == "bullet") return settings;
+  const std::string prefix = "bullet:";
+  if (!text.starts_with(prefix)) return {};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + prefix.size(), end, settings.iterations);
+  if (error != std::errc() || stop != end || settings.iterations < 1 || settings.iterations > 1000) return {};
+  return settings;
+}
 
 int run_program(int argc, char** argv) {
   CLI::App app("What a frame of a scene costs, and how good the cloth is for it.", "frame_budget");
@@ -39,6 +52,10 @@ int run_program(int argc, char** argv) {
       "--surface", [&](const std::string& mode) { request.settings.push_back("surface=" + mode); },
       "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
   app.add_option("--threads", threads, "the library uses one")->check(CLI::Range(1, 1))->capture_default_str();
+  std::string peer;
+  app.add_option("--peer", peer, "in turn with Bullet's soft body, `bullet`, or `bullet:N` for N iterations, not 4")
+      ->check(CLI::Validator([](std::string& text) { return parse_peer(text) ? "" : "not bullet or bullet:1..1000"; },
+                             "PEER"));
   app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
   try {
     app.parse(argc, argv);
@@ -50,7 +67,7 @@ int run_program(int argc, char** argv) {
   const pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
   std::optional<pleat::demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
-  const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat);
+  const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat, parse_peer(peer));
   std::vector<pleat::bench::Start> from_starts;
   if (starts > 1) from_starts = pleat::bench::measure_starts(api, def, starts);
   if (json) {

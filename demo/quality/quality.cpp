@@ -103,6 +103,9 @@ void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& fram
     const Triangle triangle = triangle_of(frame.particles, mesh.triangles, t);
     interior = std::max(interior, depth_of_samples(triangle, near_triangle(coarse, triangle)));
   }
+  keep_largest(particle_depth_, particle);
+  keep_largest(interior_depth_, interior);
+  if (frame.drawn_vertices.empty()) return;
   const Bodies curved = near_cloth(all, frame.drawn_vertices);
   for (size_t t = 0; !curved.capsules.empty() && 3 * t < frame.drawn_triangles.size(); ++t) {
     const Triangle triangle = triangle_of(frame.drawn_vertices, frame.drawn_triangles, t);
@@ -113,8 +116,6 @@ void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& fram
       drawn = std::max(drawn, -body->signed_distance(point(frame.drawn_vertices, v)));
     }
   }
-  keep_largest(particle_depth_, particle);
-  keep_largest(interior_depth_, interior);
   keep_largest(drawn_depth_, drawn);
 }
 

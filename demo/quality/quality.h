@@ -40,7 +40,7 @@ struct ClothMesh {
 /// Where a cloth is after a frame. Metres, world space.
 struct ClothFrame {
   std::span<const float> particles;           ///< (P,3)
-  std::span<const float> drawn_vertices;      ///< (V,3)
+  std::span<const float> drawn_vertices;      ///< (V,3), or empty: only particles are drawn
   std::span<const uint32_t> drawn_triangles;  ///< (F,3)
 };
 

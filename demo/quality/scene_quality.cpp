@@ -38,7 +38,7 @@ SceneQuality::SceneQuality(const Scene& scene) {
   }
 }
 
-Bodies SceneQuality::bodies_of(const Scene& scene, size_t copy) const {
+Bodies SceneQuality::bodies_of(const RunningScene& scene, size_t copy) const {
   Bodies bodies = fixed_;
   const BodyPose& body = scene.body();
   for (size_t part = 0; part < body.touching; ++part) {
@@ -53,10 +53,14 @@ Bodies SceneQuality::bodies_of(const Scene& scene, size_t copy) const {
   return bodies;
 }
 
-void SceneQuality::add_frame(const Scene& scene, std::span<const DrawnSurface> surfaces) {
+void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSurface> surfaces) {
   meter_.begin_frame();
-  for (size_t k = 0; k < scene.cloths().size(); ++k) {
+  for (size_t k = 0; k < scene.copies(); ++k) {
     scene.read_particles(k, particles_);
+    if (surfaces.empty()) {
+      meter_.add_cloth(mesh_, {particles_, {}, {}}, bodies_of(scene, k));
+      continue;
+    }
     const std::vector<float> drawn = surfaces[k].positions();
     meter_.add_cloth(mesh_, {particles_, drawn, surfaces[k].indices}, bodies_of(scene, k));
     if (!scene.def().crossings) continue;
@@ -64,11 +68,11 @@ void SceneQuality::add_frame(const Scene& scene, std::span<const DrawnSurface> s
   }
 }
 
-void SceneQuality::measure_rest(Scene& scene) {
+void SceneQuality::measure_rest(RunningScene& scene) {
   if (!scene.def().motion) return;
   const long hold = std::lround(kHold * scene.def().rate), watch = std::lround(kWatch * scene.def().rate);
   for (long frame = 0; frame < hold; ++frame) scene.hold();
-  std::vector<std::vector<float>> before(scene.cloths().size());
+  std::vector<std::vector<float>> before(scene.copies());
   for (size_t k = 0; k < before.size(); ++k) scene.read_particles(k, before[k]);
   for (long frame = 0; frame < watch; ++frame) {
     scene.hold();

@@ -10,19 +10,22 @@
 
 namespace pleat::demo {
 
-/// The quality of a running scene. Every cloth is held against the bodies of its own copy, and the fixed ones.
+/// The quality of a running scene, ours or the same one run by others. Every cloth is held against the bodies of its
+/// own copy, and the fixed ones.
 class SceneQuality {
  public:
+  /// Takes the mesh and the bodies that never move from `scene`.
   explicit SceneQuality(const Scene& scene);
 
-  /// Looks at the frame that was just stepped; `surfaces` are its drawn cloths.
-  void add_frame(const Scene& scene, std::span<const DrawnSurface> surfaces);
+  /// Looks at the frame that was just stepped; `surfaces` are its drawn cloths; none where only
+  /// particles are drawn.
+  void add_frame(const RunningScene& scene, std::span<const DrawnSurface> surfaces);
   /// Holds the pose for 5 s and then watches the particles for another second. Nothing where no body moves.
-  void measure_rest(Scene& scene);
+  void measure_rest(RunningScene& scene);
   Quality result() const { return meter_.result(); }
 
  private:
-  Bodies bodies_of(const Scene& scene, size_t copy) const;
+  Bodies bodies_of(const RunningScene& scene, size_t copy) const;
 
   ClothMesh mesh_;
   Bodies fixed_;

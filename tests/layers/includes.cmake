@@ -2,8 +2,8 @@
 #
 #   components  <-  systems  <-  engine  <-  demo  <-  bench
 #
-# demo and bench know the engine by its C header alone; Bullet is behind systems/collision*, OSMesa and GL behind
-# demo/picture; a system does not include another one, only what several of them share.
+# demo and bench know the engine by its C header alone; Bullet is behind systems/collision* (and bench/bullet*, the
+# peer), OSMesa and GL behind demo/picture; a system does not include another one, only what several of them share.
 cmake_minimum_required(VERSION 3.22)
 
 # What systems share: no systems themselves.
@@ -31,8 +31,8 @@ foreach(file ${files})
     math(EXPR checked "${checked} + 1")
 
     # Third parties.
-    if(included MATCHES "^(bullet/|btBullet|LinearMath/|Bullet[A-Za-z]+/)" AND NOT file MATCHES "^systems/collision")
-      fault("Bullet belongs to systems/collision*")
+    if(included MATCHES "^(bullet/|btBullet|LinearMath/|Bullet[A-Za-z]+/)" AND NOT file MATCHES "^(systems/collision|bench/bullet)")
+      fault("Bullet belongs to systems/collision*, and to bench/bullet* to compare with")
     endif()
     if(included MATCHES "^GL/|osmesa" AND NOT file MATCHES "^demo/picture/")
       fault("OSMesa and GL belong to demo/picture")
