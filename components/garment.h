@@ -41,7 +41,7 @@ struct Garment {
 
   /// Edges from the farthest particle to a pin; without pins, about half of the way across its first part.
   std::uint32_t depth = 0;
-  // Tethers (T): ways along the edges from particles to their nearest two pins, nearest first; see tethers.h. None
+  // Tethers (T): ways over the surface from particles to their nearest two pins, nearest first; see tethers.h. None
   // where the garment is less than kSweepReach deep.
   Column<std::uint32_t> tether_particle, tether_pin;
   Column<float> tether_length;  // m

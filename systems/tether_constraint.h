@@ -7,7 +7,7 @@
 
 namespace pleat {
 
-/// One pass over the tethers: a particle i farther from its pin p than the way along the edges comes back along the
+/// One pass over the tethers: a particle i farther from its pin p than the way over the cloth comes back along the
 /// straight line.
 ///   C = |x_p - x_i| - (1 + limit) way > 0:   x_i += C u,   u = (x_p - x_i) / |x_p - x_i|
 /// The edges ask for the same, but a pull through many of them takes many passes. The pin takes the momentum.

@@ -23,6 +23,8 @@ Rig::Rig(const pleat_api& api, const RigDef& def) : api_(api) {
   pleat_world_def world_def;
   need(api_.world_def_init(&world_def, sizeof world_def), "world");
   std::ranges::copy(def.gravity, world_def.gravity);
+  world_def.log = keep_log;
+  world_def.log_user = this;
   need(api_.world_create(&world_def, &world_), "world");
   try {
     create(def);
@@ -73,8 +75,10 @@ void Rig::create(const RigDef& def) {
 }
 
 void Rig::need(pleat_result result, const char* what) const {
-  if (result != PLEAT_OK) throw std::runtime_error(std::string("the library refuses the ") + what + " of a case");
+  if (result != PLEAT_OK) throw std::runtime_error(std::string("the library refuses the ") + what + ": " + complaint_);
 }
+
+void Rig::keep_log(uint32_t, const char* line, void* user) { static_cast<Rig*>(user)->complaint_ = line; }
 
 void Rig::read() {
   need(api_.cloth_read_particles(world_, cloth_, state_.data(), state_.data() + 3 * count(), count()), "particles");

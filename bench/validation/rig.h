@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "demo/scenes/triangle_mesh.h"
@@ -44,12 +45,14 @@ class Rig {
   void need(pleat_result result, const char* what) const;
   void create(const RigDef& def);
   void read();
+  static void keep_log(uint32_t level, const char* line, void* user);
   Point point(uint32_t i) const { return {state_[3 * i], state_[3 * i + 1], state_[3 * i + 2]}; }
 
   const pleat_api& api_;
   pleat_world* world_ = nullptr;
   pleat_cloth cloth_{};
   std::vector<float> state_;  // positions, then velocities
+  std::string complaint_;     // the engine's last line
 };
 
 }  // namespace pleat::bench

@@ -21,7 +21,8 @@ Progress::Progress(std::string what, uint32_t total)
     : what_(std::move(what)),
       total_(total),
       terminal_(isatty(STDERR_FILENO)),
-      last_(std::chrono::steady_clock::now()) {}
+      begin_(std::chrono::steady_clock::now()),
+      last_(begin_) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -34,7 +35,9 @@ void Progress::step() {
   if (!terminal_ || now - last_ < std::chrono::milliseconds(200)) return;
   last_ = now;
   shown_ = true;
-  std::fprintf(stderr, "\r%s %u / %u\033[K", what_.c_str(), done_, total_);
+  const double spent = std::chrono::duration<double>(now - begin_).count();
+  std::fprintf(stderr, "\r%s %u / %u, %.0f s left\033[K", what_.c_str(), done_, total_,
+               spent * (total_ - done_) / done_);
 }
 
 }  // namespace pleat::demo

@@ -6,7 +6,8 @@
 
 namespace pleat::demo {
 
-/// A line on a terminal that shows how far long work is. Silent where stderr is no terminal.
+/// A line on a terminal that shows how far long work is and, from its pace so far, how long it will take. Silent where
+/// stderr is no terminal.
 class Progress {
  public:
   Progress(std::string what, uint32_t total);
@@ -21,7 +22,7 @@ class Progress {
   std::string what_;
   uint32_t total_, done_ = 0;
   bool terminal_, shown_ = false;
-  std::chrono::steady_clock::time_point last_;
+  std::chrono::steady_clock::time_point begin_, last_;
 };
 
 /// From now on Ctrl-C ends work at its next Progress::step.

@@ -1,0 +1,79 @@
+#include "bench/stability/heat_map.h"
+
+#include <cstdio>
+
+namespace pleat::bench {
+namespace {
+
+constexpr int kCell = 9, kGap = 14, kLeft = 96, kTop = 64, kTitle = 30;  // pixels
+
+/// Green to yellow to red, dark where nothing is left.
+constexpr const char* kColours[] = {"#2c8f4a", "#e8c531", "#e2792c", "#c02a2a", "#6a2a7a", "#111111"};
+constexpr const char* kLegend[] = {"below 10 %",   "10 to 100 %", "100 to 1000 %",
+                                   "above 1000 %", "thrown away", "not finite"};
+
+template <class... Values>
+void add(std::string& svg, const char* format, Values... values) {
+  char line[400];
+  std::snprintf(line, sizeof line, format, values...);
+  svg += line;
+}
+
+void text(std::string& svg, int x, int y, const std::string& words, const char* anchor = "start") {
+  add(svg, "<text x=\"%d\" y=\"%d\" text-anchor=\"%s\">", x, y, anchor);
+  svg += words + "</text>\n";
+}
+
+std::string number(const char* format, double value) {
+  char word[40];
+  std::snprintf(word, sizeof word, format, value);
+  return word;
+}
+
+}  // namespace
+
+std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> results,
+                     std::span<const std::string> names) {
+  const int columns = int(grid.stiffness.size()), rows = int(grid.rate.size());
+  const int block_width = columns * kCell + kGap, block_height = rows * kCell + kGap;
+  const int band = int(grid.gravity.size()) * block_height + kTitle;
+  const int width = std::max(kLeft + int(grid.mass_ratio.size()) * block_width, 560);
+  const int height = kTop + int(grid.integrators.size()) * band + 8;
+  std::string svg;
+  add(svg,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" "
+      "font-size=\"10\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+      width, height);
+  text(svg, 8, 16,
+       "Largest elongation of an edge after " + number("%g", grid.seconds) + " s. In each block: stiffness " +
+           number("%g", grid.stiffness.front()) + " to " + number("%g", grid.stiffness.back()) + " N/m to the right,");
+  text(svg, 8, 30,
+       "tick 1/" + number("%g", grid.rate.front()) + " to 1/" + number("%g", grid.rate.back()) +
+           " s downwards. Blocks: hem weight to the right, gravity downwards.");
+  for (int k = 0; k < 6; ++k) {
+    add(svg, "<rect x=\"%d\" y=\"38\" width=\"9\" height=\"9\" fill=\"%s\"/>", 8 + 92 * k, kColours[k]);
+    text(svg, 20 + 92 * k, 46, kLegend[k]);
+  }
+  for (size_t index = 0; index < results.size(); ++index) {
+    size_t rest = index;
+    const auto next = [&rest](size_t size) {
+      const size_t i = rest % size;
+      rest /= size;
+      return int(i);
+    };
+    const int column = next(grid.stiffness.size()), row = next(grid.rate.size());
+    const int block = next(grid.mass_ratio.size()), line = next(grid.gravity.size()), integrator = int(rest);
+    const int x = kLeft + block * block_width, y = kTop + integrator * band + kTitle + line * block_height;
+    if (column == 0 && row == 0) {
+      if (line == 0) text(svg, x, y - 4, number("hem x %g", grid.mass_ratio[size_t(block)]));
+      if (block == 0) text(svg, kLeft - 6, y + 10, number("gravity x %g", grid.gravity[size_t(line)]), "end");
+      if (block == 0 && line == 0)
+        text(svg, 8, y - 16, "<tspan font-weight=\"bold\">" + names[size_t(integrator)] + "</tspan>");
+    }
+    add(svg, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + column * kCell, y + row * kCell,
+        kCell - 1, kCell - 1, kColours[size_t(results[index].fate)]);
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace pleat::bench

@@ -1,0 +1,127 @@
+// The program `stability_map`: stiff and extreme cloths, cell by cell, and what is left of them.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/machine.h"
+#include "bench/stability/grid.h"
+#include "bench/stability/heat_map.h"
+#include "demo/program/entry.h"
+#include "demo/program/output.h"
+#include "demo/program/progress.h"
+#include "demo/scenes/scene_reader.h"
+#include "demo/scenes/settings.h"
+#include "engine/pleat.h"
+
+namespace {
+
+using namespace pleat::bench;
+namespace demo = pleat::demo;
+
+using Counts = std::array<size_t, kFateNames.size()>;
+
+std::string name_of(uint32_t integrator) {
+  return std::string(std::ranges::find(demo::kIntegrators, integrator, &demo::SettingWord::value)->name);
+}
+
+demo::SceneDef hanging_square(const pleat_api& api) {
+  demo::SceneRequest request;
+  request.scene = "hanging_square:16";
+  return demo::load_scene(api, request);
+}
+
+Counts count(std::span<const CellResult> results) {
+  Counts counts{};
+  for (const CellResult& result : results) ++counts[size_t(result.fate)];
+  return counts;
+}
+
+/// Cells in which nothing exploded in the sense of the workloads: finite, within 1 km, strain up to 1000 %.
+bool unbroken(const Counts& counts) {
+  return counts[size_t(Fate::kAbove1000)] + counts[size_t(Fate::kFarAway)] + counts[size_t(Fate::kNonfinite)] == 0;
+}
+
+void print_row(const std::string& name, const Counts& counts, size_t cells) {
+  std::printf("%-18s%7zu", name.c_str(), cells);
+  for (const size_t n : counts) std::printf("%17zu", n);
+  std::printf("%11.1f %%\n", 100.0 * double(counts[0]) / double(cells));
+}
+
+void add_counts(nlohmann::ordered_json& to, const Counts& counts, size_t cells) {
+  to["cells"] = cells;
+  for (size_t f = 0; f < counts.size(); ++f) to[std::string(kFateNames[f])] = counts[f];
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "A square of 16 x 16 particles hangs from two corners: nine decades of stiffness, ticks from 1/240 to 1/10 s, "
+      "hems\n"
+      "up to 10,000 times as heavy as the cloth, up to 100 times the earth's gravity, each integrator. Says how far "
+      "the\n"
+      "worst edge is stretched at the end. Exits 1 when a cell is not finite, thrown away, or above 1000 %.",
+      "stability_map");
+  bool quick = false, full = false;
+  std::vector<std::string> words;
+  std::filesystem::path json_path, svg_path;
+  std::vector<std::string> known;
+  for (const demo::SettingWord& word : demo::kIntegrators) known.emplace_back(word.name);
+  auto* quick_flag = app.add_flag("--quick", quick, "the corners of the grid, 2 s each (what the tests run)");
+  app.add_flag("--full", full, "the whole grid, 4 s each (default)")->excludes(quick_flag);
+  app.add_option("--integrator", words, "only this one; may be repeated")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(known));
+  app.add_option("--svg", svg_path, "draw a heat map")->type_name("FILE");
+  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : demo::kBadInput;
+  }
+
+  const pleat_api& api = demo::library();
+  const demo::SceneDef scene = hanging_square(api);
+  StabilityGrid grid = quick ? quick_grid() : full_grid();
+  if (!words.empty()) {
+    std::erase_if(grid.integrators, [&](uint32_t i) { return std::ranges::find(words, name_of(i)) == words.end(); });
+  }
+  std::optional<demo::OutputFile> json, svg;
+  if (!json_path.empty()) json.emplace(json_path);
+  if (!svg_path.empty()) svg.emplace(svg_path);
+
+  demo::Progress progress("stability map, cell", uint32_t(grid.cells()));
+  std::vector<CellResult> results;
+  for (size_t i = 0; i < grid.cells(); ++i) {
+    results.push_back(run_cell(api, scene, grid.cell(i), grid.seconds));
+    progress.step();
+  }
+
+  nlohmann::ordered_json figures, by_integrator = nlohmann::ordered_json::array();
+  add_counts(figures, count(results), results.size());
+  std::vector<std::string> names;
+  std::printf("%-18s%7s", "integrator", "cells");
+  for (const std::string_view fate : kFateNames) std::printf("%17.*s", int(fate.size()), fate.data());
+  std::printf("%13s\n", "below 10 %");
+  for (size_t k = 0; k < grid.integrators.size(); ++k) {
+    names.push_back(name_of(grid.integrators[k]));
+    const size_t cells = grid.cells_of_integrator();
+    const Counts counts = count(std::span(results).subspan(k * cells, cells));
+    print_row(names.back(), counts, cells);
+    add_counts(by_integrator.emplace_back(nlohmann::ordered_json{{"name", names.back()}}), counts, cells);
+  }
+  figures["integrators"] = by_integrator;
+  figures["machine"] = describe_machine(api);
+  if (json) json->commit(figures.dump(2) + "\n");
+  if (svg) svg->commit(heat_map(grid, results, names));
+  return unbroken(count(results)) ? 0 : demo::kOwnFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pleat::demo::run_main("stability_map", [=] { return run_program(argc, argv); });
+}
