@@ -87,11 +87,11 @@ StabilityGrid full_grid() {
 
 StabilityGrid quick_grid() {
   return {.integrators = full_grid().integrators,
-          .stiffness = {1e-2, 30, 1e7},
+          .stiffness = {1e-2, 1e7},
           .rate = {240, 10},
-          .mass_ratio = {1, 1e4},
+          .mass_ratio = {1e4},
           .gravity = {1, 100},
-          .seconds = 2.0};
+          .seconds = 1.0};
 }
 
 CellResult run_cell(const pleat_api& api, const demo::SceneDef& scene, const Cell& cell, double seconds) {
