@@ -1,6 +1,9 @@
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/self_candidates.h"
+#endif
 
 namespace pleat::call {
 namespace {
@@ -62,6 +65,19 @@ void need_settings(const pleat_cloth_settings& s) {
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 
+/// Coarse cloth cannot keep what the host asks for: it is told what it gets instead.
+void warn_of_self_distance(const World& world, const Garment& garment, const pleat_cloth_settings& s) {
+#ifdef PLEAT_WITH_COLLISION
+  const float most = SelfCandidates::most_distance(garment);
+  if (s.self_distance <= most) return;
+  world.log(PLEAT_LOG_WARNING, "self_distance is " + std::to_string(s.self_distance) + " m; the garment's edges are " +
+                                   std::to_string(garment.mean_edge_length) + " m long on average, so " +
+                                   std::to_string(most) + " m is kept");
+#else
+  (void)world, (void)garment, (void)s;
+#endif
+}
+
 void move_pins_to_particles(World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   for (std::uint32_t k = 0; k < g.pins.size(); ++k) {
@@ -94,6 +110,7 @@ pleat_result cloth_create(pleat_world* handle, const pleat_cloth_def* given, ple
       remove_cloth(world, static_cast<std::uint32_t>(world.clothes.size() - 1));
       throw;
     }
+    warn_of_self_distance(world, source.garment, def.settings);
     *cloth = {added.index, added.generation};
   });
 }
@@ -131,6 +148,7 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
       refresh(world, record);
       throw;
     }
+    warn_of_self_distance(world, record.garment(), wanted);
   });
 }
 

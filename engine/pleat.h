@@ -209,7 +209,8 @@ typedef struct pleat_cloth_settings {
   float inner_friction;   /* how threads that rub slow motion against the pins, m/s2; default 0.05: ends small swings */
   uint32_t fold_sweeps;   /* steps in which the folds of PLEAT_SURFACE_PLEAT settle against each other; at most 64,
                              default 0: each edge folds on its own */
-  float self_distance;    /* kept between particles and the cloth's own faces, m; default 0: it passes through itself */
+  float self_distance;    /* kept between parts of the cloth itself, m; at most a quarter of the mean edge's length is,
+                             and asking for more logs a warning; default 0: it passes through itself */
   uint32_t tangents;      /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
 } pleat_cloth_settings;
 

@@ -20,6 +20,7 @@ namespace {
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
 constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
+constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of a cloth that touches itself, and bodies
 constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
 constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
 constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
@@ -80,9 +81,10 @@ void make_room(World& world, const ClothRecord& cloth) {
   }
 #ifdef PLEAT_WITH_COLLISION
   if (touches_itself) {
-    at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
-    at_least(world.self_scratch, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
-    at_least(world.cell_scratch, SelfCandidates::cell_scratch_size(g.particle_count));
+    at_least(world.contacts, kSelfContactsPerParticle * std::size_t{g.particle_count});
+    at_least(world.near_scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
+    world.near_scratch.grid.make_room(NearSearch::most_points(g));
+    at_least(world.near_scratch.middle, g.edge_count);
   }
 #endif
   if (!world.colliders.empty()) {

@@ -42,8 +42,7 @@ constexpr Row kRows[] = {
                           .distance = t.settings.self_distance,
                           .pairs = self_pairs_of(t),
                           .sought_at = w.self.sought_at.view().from(t.cloth.particle_begin),
-                          .pair_scratch = w.self_scratch.data(),
-                          .cell_scratch = w.cell_scratch.data()},
+                          .scratch = &w.near_scratch},
            w.stats);
      }},
     {Phase::kContact, "self_detection", with_itself,

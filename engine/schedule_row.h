@@ -60,7 +60,7 @@ inline ContactList contacts_of(ClothTick& t) {
   World& w = t.world;
   return {w.contacts.data(), static_cast<std::uint32_t>(w.contacts.size()), &w.contact_count};
 }
-inline SelfPairList self_pairs_of(ClothTick& t) {
+inline NearPairList self_pairs_of(ClothTick& t) {
   constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;
   return {t.world.self.pairs.data() + std::size_t{kPairs} * t.cloth.particle_begin, kPairs * t.garment.particle_count,
           &t.cloth.self_pair_count};

@@ -105,8 +105,7 @@ World::World(const pleat_world_def& definition)
       contacts(&memory),
       mesh_candidates(&memory),
       detection_scratch(&memory),
-      self_scratch(&memory),
-      cell_scratch(&memory),
+      near_scratch(&memory),
       fold_choices(&memory),
       fold_springs(&memory),
       footprint(&memory),
@@ -244,7 +243,7 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   const std::uint64_t particle =
       5 * sizeof(Vec3) + 2 * sizeof(float) + (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
-      (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(SelfPair) : 0);
+      (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);
   const std::uint64_t normal = world.surface.normal.size() != 0 ? sizeof(Vec3) : 0;
   const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + 2 * sizeof(float) : 0;
   const std::uint64_t drawn = 2 * sizeof(Vec3) + (world.drawn.tangent.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0);

@@ -16,8 +16,8 @@
 #include "components/fold_choice.h"
 #include "components/garment.h"
 #include "components/mesh_candidates.h"
+#include "components/near_pairs.h"
 #include "components/particles.h"
-#include "components/self_contacts.h"
 #include "components/stats.h"
 #include "components/surface.h"
 #include "components/tessellation_pattern.h"
@@ -121,8 +121,7 @@ struct World {
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
   Column<float> detection_scratch;
-  Column<SelfPair> self_scratch;
-  Column<std::uint32_t> cell_scratch;
+  NearScratch near_scratch;         // empty unless cloth touches cloth
   Column<FoldChoice> fold_choices;  // empty unless a cloth folds
   Column<FoldSprings> fold_springs;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles

@@ -1,36 +1,31 @@
-// Which particles of a cloth may come to touch which of its faces.
-//   M. Teschner, B. Heidelberger, M. Mueller, D. Pomeranets, M. Gross, "Optimized Spatial Hashing for Collision
-//   Detection of Deformable Objects", 2003: particles are filed in the cells of a hashed grid, faces ask the cells they
-//   overlap. L. Verlet, 1967: what is found within a margin stays complete until something has moved by half of the
-//   margin.
+// Which features of a cloth may come to touch each other.
+//   L. Verlet, 1967: what is found within a margin stays complete until something has moved by half of the margin.
 #pragma once
 
-#include "components/garment.h"
-#include "components/self_contacts.h"
-#include "components/stats.h"
+#include "systems/near_search.h"
 
 namespace pleat {
 
-/// Looks for pairs anew when a particle has moved by more than half the margin against the cloth's mean motion since
-/// the last time; until then the pairs stay as they are. Each particle within distance + margin of the prism over a
-/// face makes a pair, but for the face's own corners. A pair that was there before keeps the side that it remembers.
+/// Looks for pairs anew when a particle has moved by more than half the margin, 0.15 edges, against the
+/// cloth's mean motion since the last time; until then the pairs stay as they are. A pair that was there before keeps
+/// the side that it remembers.
 /// Two features that are near each other at rest keep no more than half of their distance there, so that the rest shape
-/// itself never makes a contact.
-/// Reads:  garment faces, rest positions; position (predicted), previous (P) m
+/// itself never makes a contact; and none keep more than most_distance, since folds between stiff triangles leave no
+/// more room.
+/// Reads:  garment faces, edges, rest positions; position (predicted), previous (P) m
 /// Writes: pairs; sought_at (P) m; scratch; stats.contacts_dropped: pairs beyond the capacity
-/// Cost:   O(P) while nothing has moved, else O(P + F) for a cloth whose faces are of like size; no allocation.
-/// Errors: none. A face that is stretched over more cells than there are particles asks all particles.
+/// Cost:   O(P) while nothing has moved, else O(P + E + F) for a cloth of triangles of like size; no allocation.
+/// Errors: none.
 struct SelfCandidates {
   const Garment* garment = nullptr;
   ConstVec3View position, previous;
   float distance = 0.0f;  // m, to be kept
-  SelfPairList pairs;     // *pairs.count == kNeverSought: there is nothing yet
+  NearPairList pairs;     // *pairs.count == kNeverSought: there is nothing yet
   Vec3View sought_at;
-  SelfPair* pair_scratch = nullptr;       // pairs.capacity
-  std::uint32_t* cell_scratch = nullptr;  // cell_scratch_size(P)
+  NearScratch* scratch = nullptr;  // pairs.capacity pairs
 
   static constexpr std::uint32_t kNeverSought = kNone;
-  static std::size_t cell_scratch_size(std::size_t particle_count);
+  static float most_distance(const Garment& garment) { return 0.25f * garment.mean_edge_length; }
 
   bool validate() const;
   void run(Stats& stats) const;

@@ -1,15 +1,9 @@
 #include "systems/self_detection.h"
 
+#include "systems/closeness.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
-namespace {
-
-/// Faces overlap by this share, so that there is no gap between them when the particles of two layers lie on each
-/// other.
-constexpr float kOverlap = 0.05f;
-
-}  // namespace
 
 bool SelfDetection::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
@@ -18,30 +12,22 @@ bool SelfDetection::validate() const {
 
 void SelfDetection::run(Stats& stats) const {
   const auto& corner = garment->face_particle;
-  const float margin = contact_margin(position, previous, garment->particle_count);
+  const auto& end = garment->edge_particle;
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
-  for (SelfPair* pair = pairs.pairs; pair != pairs.pairs + *pairs.count; ++pair) {
-    const std::uint32_t p = pair->particle, i = corner[0][pair->face], j = corner[1][pair->face],
-                        k = corner[2][pair->face];
-    const Vec3 xi = position[i], u = position[j] - xi, v = position[k] - xi, w = position[p] - xi;
-    const Vec3 area = cross(u, v);
-    const float area2 = dot(area, area);
-    if (!(area2 > 1e-16f)) continue;
-    const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2, bi = 1.0f - bj - bk;
-    if (!(bi > -kOverlap && bj > -kOverlap && bk > -kOverlap)) {
-      pair->side = 0.0f;
-      continue;
-    }
-    if (pair->side == 0.0f) {
-      const Vec3 before = previous[p] - previous[i] * bi - previous[j] * bj - previous[k] * bk;
-      pair->side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
-    }
-    const Vec3 normal = area * (pair->side / std::sqrt(area2));
-    if (dot(w, normal) > pair->distance + margin) continue;
-    rows.add({.particle = {p, i, j, k},
-              .weight = {1.0f, -bi, -bj, -bk},
+  for (NearPair* pair = pairs.pairs; pair != pairs.pairs + *pairs.count; ++pair) {
+    const bool face = pair->kind == NearKind::kParticleFace;
+    const std::uint32_t f = pair->first, s = pair->second;
+    const std::uint32_t i[4] = {face ? f : end[0][f], face ? corner[0][s] : end[1][f], face ? corner[1][s] : end[0][s],
+                                face ? corner[2][s] : end[1][s]};
+    const Vec3 x[4] = {position[i[0]], position[i[1]], position[i[2]], position[i[3]]};
+    const Vec3 before[4] = {previous[i[0]], previous[i[1]], previous[i[2]], previous[i[3]]};
+    Closeness near;
+    if (!closeness(pair->kind, x, before, pair->side, near)) continue;
+    if (near.distance > 2.0f * pair->distance) continue;
+    rows.add({.particle = {i[0], i[1], i[2], i[3]},
+              .weight = {near.weight[0], near.weight[1], near.weight[2], near.weight[3]},
               .count = 4,
-              .normal = normal,
+              .normal = near.normal,
               .offset = pair->distance,
               .body_step = {},
               .friction = friction,

@@ -78,6 +78,27 @@ TEST(SelfContact, AFoldedSheetComesToRest) {
   }
 }
 
+TEST(SelfContact, MoreDistanceThanTheEdgesAllowIsNotKeptAndSaysSo) {
+  std::string lines;
+  pleat_world_def def = Scene::default_def();
+  def.log = [](std::uint32_t, const char* line, void* user) { *static_cast<std::string*>(user) += line; };
+  def.log_user = &lines;
+  Scene scene(def);
+  const pleat_garment garment = scene.sheet(11);
+  const float most = 0.25f * scene.inside().garments[0]->garment.mean_edge_length;
+  const pleat_cloth exact = scene.cloth(garment, touching_itself(most));
+  EXPECT_EQ(lines, "");
+  const pleat_cloth more = scene.cloth(garment, touching_itself(4.0f * most));
+  EXPECT_NE(lines.find("self_distance is 0.11"), std::string::npos) << lines;
+  const std::vector<float> start = folded(11);
+  for (const pleat_cloth cloth : {exact, more}) {
+    must(call::cloth_write_particles(scene, cloth, start.data(), nullptr, 121));
+  }
+  scene.step(30);
+  EXPECT_GT(scene.stats().self_contacts, 0u);
+  EXPECT_TRUE(same_bits(scene.particles(exact), scene.particles(more)));
+}
+
 TEST(SelfContact, SurvivesComingAndGoingOfCloths) {
   Scene scene;
   const pleat_garment garment = scene.sheet(8);

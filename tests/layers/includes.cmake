@@ -7,7 +7,8 @@
 cmake_minimum_required(VERSION 3.22)
 
 # What systems share: no systems themselves.
-set(shared_by_systems angle body_topology box capsule_shape clearance_list closest_points collision_bodies contact_row mesh_pose)
+set(shared_by_systems angle body_topology box capsule_shape clearance_list closeness closest_points
+    collision_bodies contact_row mesh_pose near_search point_grid)
 
 set(faults "")
 macro(fault text)

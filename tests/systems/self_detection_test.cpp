@@ -18,8 +18,8 @@ constexpr float kDistance = 0.005f, kDt = 0.002f;
 
 /// A cloth and what contact with itself keeps.
 struct SelfCloth : ContactCloth {
-  std::vector<SelfPair> pairs, pair_scratch;
-  std::vector<std::uint32_t> cells;
+  std::vector<NearPair> pairs;
+  NearScratch scratch{memory()};
   Vec3Column sought_at{memory()};
   std::uint32_t pair_count = SelfCandidates::kNeverSought;
   Stats stats;
@@ -28,8 +28,9 @@ struct SelfCloth : ContactCloth {
 
   SelfCandidates candidates(float distance = kDistance) {
     const std::uint32_t n = garment.particle_count, capacity = 64 * n;
-    pairs.resize(capacity), pair_scratch.resize(capacity);
-    cells.resize(SelfCandidates::cell_scratch_size(n));
+    pairs.resize(capacity), scratch.pairs.resize(capacity);
+    scratch.middle.resize(garment.edge_count);
+    scratch.grid.make_room(NearSearch::most_points(garment));
     sought_at.resize(n);
     return {.garment = &garment,
             .position = position.view(),
@@ -37,8 +38,7 @@ struct SelfCloth : ContactCloth {
             .distance = distance,
             .pairs = {pairs.data(), capacity, &pair_count},
             .sought_at = sought_at.view(),
-            .pair_scratch = pair_scratch.data(),
-            .cell_scratch = cells.data()};
+            .scratch = &scratch};
   }
   void detect(float distance = kDistance, float friction = 0.0f) {
     const SelfCandidates search = candidates(distance);
@@ -108,7 +108,8 @@ TEST(SelfDetection, PropertyRowsKeepMomentum) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> small(-0.002f, 0.002f);
   for (int trial = 0; trial < 200; ++trial) {
-    SelfCloth cloth = face_and_tip({0.03f, 0.002f, 0.03f});
+    SelfCloth cloth = face_and_tip({0.03f, 0.02f, 0.03f});
+    cloth.put(3, {0.03f, 0.002f, 0.03f}, {0.03f, 0.002f, 0.03f});
     for (std::uint32_t i = 0; i < 6; ++i) {
       cloth.inverse_mass[i] = 500.0f + 100.0f * static_cast<float>(i);
       cloth.position.view().add(i, {small(random), small(random), small(random)});
@@ -162,6 +163,55 @@ TEST(SelfDetection, TheRestShapeMakesNoContact) {
   }
 }
 
+/// Two triangles that stand on each other's far side but for one edge of each: along z below, along x above.
+SelfCloth crossed_edges(float height, const std::vector<std::uint32_t>& pins = {}) {
+  return SelfCloth({{0, 0, -0.05f}, {0, 0, 0.05f}, {0, -1, 0}, {-0.05f, height, 0}, {0.05f, height, 0}, {0, 1, 0}},
+                   {{0, 1, 2}, {3, 4, 5}}, pins);
+}
+
+TEST(SelfDetection, AThrownEdgeNeverPassesAnEdge) {
+  for (const float speed : {0.05f, 0.5f, 2.0f, 5.0f, 10.0f, 20.0f, 50.0f}) {
+    for (const bool held : {false, true}) {
+      SelfCloth cloth = crossed_edges(0.06f, held ? std::vector<std::uint32_t>{0, 1, 2} : std::vector<std::uint32_t>{});
+      for (const std::uint32_t i : {3u, 4u, 5u}) cloth.velocity.view().set(i, {0, -speed, 0});
+      for (int step = 0; step < 300; ++step) {
+        cloth.substep();
+        const Vec3 u = cloth.x(1) - cloth.x(0), v = cloth.x(4) - cloth.x(3);
+        const SegmentPair at = closest_between_segments(cloth.x(0), cloth.x(1), cloth.x(3), cloth.x(4));
+        if (!(std::min({at.s, 1.0f - at.s, at.t, 1.0f - at.t}) > 0.0f)) break;  // past each other's ends, tumbling
+        ASSERT_GT(dot(cloth.x(3) - cloth.x(0), cross(u, v)), 0.0f) << speed << " m/s, step " << step;
+      }
+    }
+  }
+}
+
+TEST(SelfDetection, PropertyRowsOfEdgesKeepMomentum) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> small(-0.002f, 0.002f);
+  for (int trial = 0; trial < 200; ++trial) {
+    SelfCloth cloth = crossed_edges(0.02f);
+    for (const std::uint32_t i : {3u, 4u}) cloth.put(i, cloth.x(i) - Vec3{0, 0.018f, 0}, cloth.x(i));
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      cloth.inverse_mass[i] = 500.0f + 100.0f * static_cast<float>(i);
+      cloth.position.view().add(i, {small(random), small(random), small(random)});
+    }
+    cloth.detect();
+    ASSERT_EQ(cloth.row_count, 1u);
+    const Vec3 before = cloth.sum(cloth.position.view());
+    cloth.respond();
+    EXPECT_EQ(cloth.stats.self_contacts, 1u);
+    EXPECT_LT(length(cloth.sum(cloth.position.view()) - before), 1e-9f);
+  }
+}
+
+TEST(SelfDetection, EdgesThatWereForcedThroughComeBack) {
+  SelfCloth cloth = crossed_edges(0.012f, {0, 1, 2});
+  cloth.detect();  // remembers the side
+  for (const std::uint32_t i : {3u, 4u}) cloth.put(i, cloth.x(i) - Vec3{0, 0.02f, 0}, cloth.x(i) - Vec3{0, 0.02f, 0});
+  for (int step = 0; step < 20; ++step) cloth.substep();
+  EXPECT_NEAR(0.5f * (cloth.x(3).y + cloth.x(4).y), kDistance, 1e-4f);
+}
+
 TEST(SelfCandidates, PropertyNothingNearOverAFaceIsMissed) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-0.3f, 0.3f), step(-0.004f, 0.004f);
@@ -187,9 +237,46 @@ TEST(SelfCandidates, PropertyNothingNearOverAFaceIsMissed) {
         if (!over || length(at.point(a, b, c) - cloth.x(p)) > kReach) continue;
         ++near;
         const auto* end = search.pairs.pairs + cloth.pair_count;
-        EXPECT_TRUE(std::any_of(static_cast<const SelfPair*>(search.pairs.pairs), end,
-                                [&](const SelfPair& pair) { return pair.particle == p && pair.face == f; }))
+        EXPECT_TRUE(std::any_of(static_cast<const NearPair*>(search.pairs.pairs), end,
+                                [&](const NearPair& pair) {
+                                  return pair.kind == NearKind::kParticleFace && pair.first == p && pair.second == f;
+                                }))
             << "particle " << p << ", face " << f << ", tick " << tick;
+      }
+    }
+  }
+  EXPECT_GT(near, 1000);
+  EXPECT_EQ(cloth.stats.contacts_dropped, 0u);
+}
+
+TEST(SelfCandidates, PropertyNoNearEdgesAreMissed) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> place(-0.3f, 0.3f), step(-0.004f, 0.004f);
+  std::vector<Vec3> positions(60);
+  for (Vec3& p : positions) p = {place(random), place(random), place(random)};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 60; i += 3) triangles.push_back({i, i + 1, i + 2});
+  SelfCloth cloth(positions, triangles);
+  constexpr float kReach = 0.02f;
+  int near = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      cloth.put(i, cloth.x(i) + Vec3{step(random), step(random), step(random)}, cloth.x(i));
+    }
+    const SelfCandidates search = cloth.candidates(kReach);
+    search.run(cloth.stats);
+    const auto& end = cloth.garment.edge_particle;
+    for (std::uint32_t e = 0; e < cloth.garment.edge_count; ++e) {
+      for (std::uint32_t o = 0; o < e; ++o) {
+        const Vec3 p0 = cloth.x(end[0][o]), p1 = cloth.x(end[1][o]), q0 = cloth.x(end[0][e]), q1 = cloth.x(end[1][e]);
+        const SegmentPair at = closest_between_segments(p0, p1, q0, q1);
+        if (end[0][o] / 3 == end[0][e] / 3 || length(lerp(p0, p1, at.s) - lerp(q0, q1, at.t)) > kReach) continue;
+        ++near;
+        const NearPair* last = search.pairs.pairs + cloth.pair_count;
+        EXPECT_TRUE(std::any_of(
+            static_cast<const NearPair*>(search.pairs.pairs), last,
+            [&](const NearPair& pair) { return pair.kind == NearKind::kEdges && pair.first == o && pair.second == e; }))
+            << "edges " << o << ", " << e << ", tick " << tick;
       }
     }
   }

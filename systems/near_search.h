@@ -1,0 +1,41 @@
+// The search for pairs of features that may come to touch, of one cloth or of two.
+#pragma once
+
+#include "components/garment.h"
+#include "components/near_pairs.h"
+#include "components/stats.h"
+
+namespace pleat {
+
+/// A cloth at one moment.
+struct PosedCloth {
+  const Garment* garment = nullptr;
+  ConstVec3View position;  // (P) m
+};
+
+/// Pairs of the last search, from which sides are taken over.
+struct NearMemory {
+  const NearPair* next = nullptr;  // walks along as searches ask in the order of the list
+  const NearPair* end = nullptr;
+};
+
+/// Finds pairs by a grid. Particles count over the inside of a face and up to `wide` beside it.
+struct NearSearch {
+  PosedCloth first, second;
+  bool itself = false;              // first and second are the same cloth
+  float distance = 0.0f;            // m, to be kept
+  float reach = 0.0f, wide = 0.0f;  // m
+  NearScratch* scratch = nullptr;
+  NearMemory* memory = nullptr;
+  NearPairList pairs;  // added to
+
+  /// The most points of a garment that are filed in a grid.
+  static std::size_t most_points(const Garment& garment);
+
+  /// Particles of the first cloth and faces of the second; of one cloth, those that are no corner.
+  void find_particle_face(Stats& stats) const;
+  /// Edges of the first and of the second cloth; of one cloth, each two that share no particle once.
+  void find_edges(Stats& stats) const;
+};
+
+}  // namespace pleat
