@@ -30,7 +30,7 @@ const pleat_cloth_def& default_cloth() {
                   .surface = kHasSmoothing ? PLEAT_SURFACE_PLEAT : PLEAT_SURFACE_FLAT,
                   .level = PLEAT_LEVEL_FAN,
                   .lift_coefficient = 0.0f,
-                  .inner_friction = 0.05f,
+                  .inner_friction = 0.1f,
                   .fold_sweeps = 0,
                   .self_distance = 0.0f,
                   .tangents = 0};

@@ -47,6 +47,7 @@ void make_room(World& world, const ClothRecord& cloth) {
   const auto at_least = [](auto& column, std::size_t size) {
     if (column.size() < size) column.resize(size);
   };
+  if (cloth.settings.inner_friction > 0.0f || world.held.size() != 0) world.held.resize(particles);
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
     resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
                     world.runge_kutta.velocity_slope);

@@ -109,6 +109,8 @@ constexpr Row kRows[] = {
                          .velocity = t.velocity,
                          .deceleration = t.settings.inner_friction,
                          .dt = t.dt,
+                         .elapsed = runge_kutta(t.settings) ? 0.25f * t.dt : t.dt,
+                         .held = t.world.held.view().from(t.cloth.particle_begin),
                          .force = t.force});
      }},
     {Phase::kStage, "gust",

@@ -93,6 +93,7 @@ World::World(const pleat_world_def& definition)
       particles(&memory),
       pin_previous(&memory),
       pin_next(&memory),
+      held(&memory),
       runge_kutta(&memory),
       self(&memory),
       surface(&memory),
@@ -197,7 +198,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   }
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
-  for (Vec3Column* column : {&world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
+  for (Vec3Column* column : {&world.held, &world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
                              &world.runge_kutta.velocity_slope, &world.self.sought_at}) {
     erase_if_present(*column, cloth.particle_begin, particles);
   }
@@ -242,7 +243,8 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
 std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   const std::uint64_t particle =
-      5 * sizeof(Vec3) + 2 * sizeof(float) + (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
+      5 * sizeof(Vec3) + 2 * sizeof(float) + (world.held.size() != 0 ? sizeof(Vec3) : 0) +
+      (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
       (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);
   const std::uint64_t normal = world.surface.normal.size() != 0 ? sizeof(Vec3) : 0;
   const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + 2 * sizeof(float) : 0;

@@ -105,6 +105,7 @@ struct World {
 
   ParticleColumns particles;
   Vec3Column pin_previous, pin_next;  // m, where pins were at the last tick's end and shall be at the next one's
+  Vec3Column held;                    // m/s2, what inner friction holds at rest; empty unless a cloth has it
   RungeKuttaColumns runge_kutta;      // empty unless a cloth integrates by it
   SelfColumns self;                   // empty unless a cloth touches itself
   SurfaceColumns surface;             // empty unless a cloth is drawn curved

@@ -139,7 +139,7 @@ TEST(Step, ClothHangsFromItsPinsAtItsLength) {
 TEST(Step, FreeClothFallsByTheDiscreteLaw) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
-  s.air_damping = 0.0f;
+  s.air_damping = s.inner_friction = 0.0f;
   const pleat_garment sheet = scene.sheet(4);
   const pleat_cloth cloth = scene.cloth(sheet, s);
   const float before = scene.particles(cloth)[3 * 10 + 1];

@@ -34,6 +34,15 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
+Vec3Column& held_column() {
+  static Vec3Column column = [] {
+    Vec3Column c(std::pmr::new_delete_resource());
+    c.resize(25);
+    return c;
+  }();
+  return column;
+}
+
 Vec3Column& pin_targets() {
   static Vec3Column column = [] {
     Vec3Column c(std::pmr::new_delete_resource());
@@ -70,7 +79,9 @@ const Case kCases[] = {
      {"force"}},
     {"AirDamping", [](Sheet& s) { AirDamping{s.count, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); }, {"force"}},
     {"InnerFriction",
-     [](Sheet& s) { InnerFriction{&s.garment, s.mass, s.velocity, 1.0f, kDt, s.force}.run(); },
+     [](Sheet& s) {
+       InnerFriction{&s.garment, s.mass, s.velocity, 1.0f, kDt, kDt, held_column().view(), s.force}.run();
+     },
      {"force"}},
     {"AirDrag",
      [](Sheet& s) {
