@@ -12,7 +12,7 @@ namespace pleat {
 inline constexpr std::uint32_t kLanes = 8;
 
 struct Vec3Block {
-  alignas(32) float x[kLanes], y[kLanes], z[kLanes];
+  float x[kLanes], y[kLanes], z[kLanes];
 
   Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
   void set(std::size_t lane, const Vec3& v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }

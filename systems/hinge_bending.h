@@ -25,6 +25,7 @@ struct HingeBending {
 
   bool validate() const;
   void run() const;
+  void kernel() const;  // what run_wide compiles for each set of vectors
 };
 
 }  // namespace pleat

@@ -1,0 +1,42 @@
+// Runs a kernel with the widest vectors that the processor has. Kernels are plain loops over columns and lanes; the
+// compiler makes one version of each for the baseline of the build and one for AVX2 from the same source. No version
+// may contract or reorder arithmetic (see pleat_options), so all of them give the same bits.
+#pragma once
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten))
+#define PLEAT_HAS_AVX2 (__builtin_cpu_supports("avx2") != 0)
+#else
+#define PLEAT_TARGET_AVX2
+#define PLEAT_HAS_AVX2 false
+#endif
+/// For a kernel and its helpers: they are compiled where they are called from, for that target.
+#define PLEAT_KERNEL __attribute__((always_inline)) inline
+
+namespace pleat {
+
+enum class VectorSet { kBaseline, kAvx2 };
+
+inline VectorSet widest_vectors() {
+  static const VectorSet widest = PLEAT_HAS_AVX2 ? VectorSet::kAvx2 : VectorSet::kBaseline;
+  return widest;
+}
+
+namespace wide {
+template <class System>
+PLEAT_TARGET_AVX2 void run_avx2(const System& system) {
+  system.kernel();
+}
+template <class System>
+void run_baseline(const System& system) {
+  system.kernel();
+}
+}  // namespace wide
+
+/// Calls system.kernel(), compiled for `set`, which the processor must have.
+template <class System>
+void run_wide(const System& system, VectorSet set = widest_vectors()) {
+  set == VectorSet::kAvx2 ? wide::run_avx2(system) : wide::run_baseline(system);
+}
+
+}  // namespace pleat
