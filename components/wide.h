@@ -22,21 +22,21 @@ inline VectorSet widest_vectors() {
   return widest;
 }
 
-namespace wide {
-template <class System>
-PLEAT_TARGET_AVX2 void run_avx2(const System& system) {
-  system.kernel();
+namespace compiled {
+template <class Kernel>
+PLEAT_TARGET_AVX2 void run_avx2(const Kernel& kernel) {
+  kernel();
 }
-template <class System>
-void run_baseline(const System& system) {
-  system.kernel();
+template <class Kernel>
+void run_baseline(const Kernel& kernel) {
+  kernel();
 }
-}  // namespace wide
+}  // namespace compiled
 
-/// Calls system.kernel(), compiled for `set`, which the processor must have.
-template <class System>
-void run_wide(const System& system, VectorSet set = widest_vectors()) {
-  set == VectorSet::kAvx2 ? wide::run_avx2(system) : wide::run_baseline(system);
+/// Calls kernel(), compiled for `set`, which the processor must have. What it calls has to be PLEAT_KERNEL or inline.
+template <class Kernel>
+void run_wide(VectorSet set, const Kernel& kernel) {
+  set == VectorSet::kAvx2 ? compiled::run_avx2(kernel) : compiled::run_baseline(kernel);
 }
 
 }  // namespace pleat

@@ -76,6 +76,17 @@ PLEAT_KERNEL void scatter(const HingeBending& in, std::uint32_t begin, std::uint
   }
 }
 
+PLEAT_KERNEL void bend_all(const HingeBending& in) {
+  const float safe_rate = std::min(in.damping_rate, 0.2f / in.dt), bound = 0.35f / (in.dt * in.dt);
+  for (std::uint32_t begin = 0; begin < in.garment->hinge_count; begin += kLanes) {
+    const std::uint32_t count = std::min(kLanes, in.garment->hinge_count - begin);
+    HingeBlock block;
+    gather(in, begin, count, block);
+    bend(block, safe_rate, bound);
+    scatter(in, begin, count, block);
+  }
+}
+
 }  // namespace
 
 bool HingeBending::validate() const {
@@ -83,17 +94,8 @@ bool HingeBending::validate() const {
          force.x != nullptr && stiffness >= 0.0f && damping_rate >= 0.0f && dt > 0.0f;
 }
 
-PLEAT_KERNEL void HingeBending::kernel() const {
-  const float safe_rate = std::min(damping_rate, 0.2f / dt), bound = 0.35f / (dt * dt);
-  for (std::uint32_t begin = 0; begin < garment->hinge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, garment->hinge_count - begin);
-    HingeBlock block;
-    gather(*this, begin, count, block);
-    bend(block, safe_rate, bound);
-    scatter(*this, begin, count, block);
-  }
+void HingeBending::run(VectorSet set) const {
+  run_wide(set, [this] { bend_all(*this); });
 }
-
-void HingeBending::run() const { run_wide(*this); }
 
 }  // namespace pleat

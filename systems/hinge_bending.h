@@ -4,6 +4,7 @@
 #pragma once
 
 #include "components/garment.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -24,8 +25,7 @@ struct HingeBending {
   Vec3View force;
 
   bool validate() const;
-  void run() const;
-  void kernel() const;  // what run_wide compiles for each set of vectors
+  void run(VectorSet set = widest_vectors()) const;
 };
 
 }  // namespace pleat
