@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/edge_block.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -137,6 +138,9 @@ bool EdgeLength::validate() const {
          fold_height != nullptr && (mode != SurfaceMode::kPleat || side != nullptr);
 }
 
-void EdgeLength::run() const { mode == SurfaceMode::kPaper ? run_paper(*this) : run_pleat(*this); }
+void EdgeLength::run() const {
+  if (mode == SurfaceMode::kPaper) return run_paper(*this);
+  run_wide(widest_vectors(), [this] { run_pleat(*this); });
+}
 
 }  // namespace pleat

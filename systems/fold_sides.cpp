@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/edge_block.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -131,15 +132,17 @@ bool FoldSides::validate() const {
 }
 
 void FoldSides::run() const {
-  guess(*this);
-  span_springs(*this);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    ask_springs(*this);
-    decide(*this);
-  }
-  for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
-    side[e] = kept > 0.0f ? choices[e].side + kept * (side[e] - choices[e].side) : choices[e].side;
-  }
+  run_wide(widest_vectors(), [this] {
+    guess(*this);
+    span_springs(*this);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      ask_springs(*this);
+      decide(*this);
+    }
+    for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
+      side[e] = kept > 0.0f ? choices[e].side + kept * (side[e] - choices[e].side) : choices[e].side;
+    }
+  });
 }
 
 }  // namespace pleat

@@ -5,6 +5,7 @@
 #include "components/base_normal.h"
 #include "components/creases.h"
 #include "components/edge_block.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -118,9 +119,9 @@ void ParticleNormals::run() const {
     case SurfaceMode::kPaper:
       return sum_normals<Weighting::kForce>(*this);
     case SurfaceMode::kPleat:
-      return run_pleat(*this);
+      return run_wide(widest_vectors(), [this] { run_pleat(*this); });
     default:
-      return sum_normals<Weighting::kBase>(*this);
+      return run_wide(widest_vectors(), [this] { sum_normals<Weighting::kBase>(*this); });
   }
 }
 

@@ -5,6 +5,7 @@
 #include "components/arc_pn.h"
 #include "components/projected_triangle.h"
 #include "components/vec3_block.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -238,11 +239,11 @@ void Tessellation::run() const {
     case SurfaceMode::kFlat:
       return draw_flat(*this);
     case SurfaceMode::kPn:
-      return draw_curved<SurfaceMode::kPn>(*this);
+      return run_wide(widest_vectors(), [this] { draw_curved<SurfaceMode::kPn>(*this); });
     case SurfaceMode::kPaper:
       return draw_paper(*this);
     case SurfaceMode::kPleat:
-      return draw_curved<SurfaceMode::kPleat>(*this);
+      return run_wide(widest_vectors(), [this] { draw_curved<SurfaceMode::kPleat>(*this); });
     case SurfaceMode::kPhong:
       return draw_lifted<phong_point>(*this);
     case SurfaceMode::kSpherigon:
