@@ -1,5 +1,6 @@
 #include "systems/capsule_detection.h"
 
+#include "components/wide.h"
 #include "systems/capsule_shape.h"
 #include "systems/contact_row.h"
 
@@ -24,7 +25,7 @@ struct CapsuleTest {
   const float* length2 = in.scratch + in.garment->particle_count;  // (E) squared
 
   void run(Stats& stats) const {
-    measure_particles();
+    run_wide(widest_vectors(), [this] { measure_particles(); });
     test_particles(stats);
     test_edges(stats);
     test_faces(stats);
@@ -115,6 +116,7 @@ struct CapsuleTest {
   void test_faces(Stats& stats) const {
     const auto& corner = in.garment->face_particle;
     const auto& edge = in.garment->face_edge;
+    const Vec3 ends[2] = {core(0.0f), core(1.0f)};
     const bool is_sphere = capsule.a == capsule.b;
     for (std::uint32_t f = 0; f < in.garment->face_count; ++f) {
       const std::uint32_t i = corner[0][f], j = corner[1][f], k = corner[2][f];
@@ -128,7 +130,7 @@ struct CapsuleTest {
       if (!(area2 > 1e-16f)) continue;
       for (const float t : {0.0f, 1.0f}) {
         if (is_sphere && t > 0.0f) break;
-        const Vec3 w = core(t) - xi;
+        const Vec3 w = ends[t == 0.0f ? 0 : 1] - xi;
         const float height = dot(w, area);
         if (height * height > reach * reach * area2) continue;
         const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
@@ -145,6 +147,16 @@ struct CapsuleTest {
   }
 };
 
+/// Squared lengths, into scratch.
+void measure_edges(const CapsuleDetection& in) {
+  float* length2 = in.scratch + in.garment->particle_count;
+  const auto& end = in.garment->edge_particle;
+  for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
+    const Vec3 d = in.position[end[1][e]] - in.position[end[0][e]];
+    length2[e] = dot(d, d);
+  }
+}
+
 }  // namespace
 
 bool CapsuleDetection::validate() const {
@@ -155,11 +167,7 @@ bool CapsuleDetection::validate() const {
 
 void CapsuleDetection::run(Stats& stats) const {
   if (capsule_count == 0) return;
-  float* length2 = scratch + garment->particle_count;
-  for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
-    const Vec3 d = position[garment->edge_particle[1][e]] - position[garment->edge_particle[0][e]];
-    length2[e] = dot(d, d);
-  }
+  run_wide(widest_vectors(), [this] { measure_edges(*this); });
   const float margin = contact_margin(position, previous, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   for (std::uint32_t c = 0; c < capsule_count; ++c) CapsuleTest{*this, capsules[c], rows, margin}.run(stats);
