@@ -41,6 +41,7 @@ int run_program(int argc, char** argv) {
   std::filesystem::path json_path;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
   app.add_option("--clip", request.clip, "in place of the scene's motion")->type_name("BVH");
+  app.add_option("--speed", request.speed, "times as fast as the scene's motion is")->check(CLI::Range(0.01, 100.0));
   app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
   app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
   app.add_option("--repeat", repeat, "runs; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();

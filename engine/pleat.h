@@ -322,7 +322,7 @@ typedef struct pleat_contact_report {
   uint64_t self_contacts;     /* rows that pushed, last tick */
   uint64_t contacts_dropped;  /* touching places beyond the room, last tick */
   float particle_depth;       /* of the deepest particle that is no pin */
-  float pin_depth;            /* of the deepest pin */
+  float pin_depth;            /* of any point of the pins and of the edges between them: the host put them there */
   float face_depth;       /* of any point of the coarse triangles; in meshes, boxes and hulls of 45 points of each */
   float drawn_depth;      /* of any point of the drawn triangles; in meshes, boxes and hulls of their vertices */
   pleat_collider deepest; /* where the largest of these is; zero when all are 0 */

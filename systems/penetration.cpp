@@ -96,6 +96,19 @@ float deeper(const Body& body, float depth, const Vec3& a, const Vec3& b, const 
   return body.box.overlaps(around) ? std::max(depth, -body.distance(a, b, c)) : depth;
 }
 
+/// The depth of any edge whose two ends are pinned, but no less than `depth`.
+template <class Body>
+float depth_between_pins(const Penetration& in, const Body& body, float depth) {
+  const Garment& g = *in.garment;
+  if (g.pins.size() < 2) return depth;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
+    if (g.pinned[i] == 0 || g.pinned[j] == 0) continue;
+    depth = deeper(body, depth, in.position[i], in.position[j], in.position[j]);
+  }
+  return depth;
+}
+
 template <class Body>
 float depth_of_faces(const Penetration& in, const Body& body) {
   float depth = 0.0f;
@@ -166,6 +179,7 @@ PenetrationDepths Penetration::run() const {
       float& depth = garment->pinned[i] != 0 ? of_pins : of_particles;
       depth = std::max(depth, -body.distance(position[i]));
     }
+    of_pins = depth_between_pins(*this, body, of_pins);
     const float of_faces = depth_of_faces(*this, body);
     const float of_drawn = pattern != nullptr ? depth_of_drawn(*this, body) : of_faces;
     all.particle = std::max(all.particle, of_particles);

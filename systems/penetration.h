@@ -13,7 +13,7 @@ namespace pleat {
 /// Depths below the bodies' own surfaces, what is kept from them aside; m, 0 outside.
 struct PenetrationDepths {
   float particle = 0.0f;            // of free particles
-  float pin = 0.0f;                 // of pinned ones
+  float pin = 0.0f;                 // of pinned ones and of any point of the edges between them
   float face = 0.0f, drawn = 0.0f;  // of any point of a coarse triangle and of a drawn one
   std::uint32_t pins_inside = 0;    // deeper than rounding
   struct Body {

@@ -94,7 +94,7 @@ void QualityMeter::add_strain(const ClothMesh& mesh, std::span<const float> part
 
 void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& frame, const Bodies& all) {
   if (all.capsules.empty() && all.meshes.empty()) return;
-  double particle = 0.0, interior = 0.0, drawn = 0.0;
+  double particle = 0.0, interior = 0.0, pinned = 0.0, drawn = 0.0;
   const Bodies coarse = near_cloth(all, frame.particles);
   for (uint32_t i = 0; 3 * i < frame.particles.size(); ++i) {
     particle = std::max(particle, depth_of_point(point(frame.particles, i), coarse));
@@ -103,8 +103,15 @@ void QualityMeter::add_penetration(const ClothMesh& mesh, const ClothFrame& fram
     const Triangle triangle = triangle_of(frame.particles, mesh.triangles, t);
     interior = std::max(interior, depth_of_samples(triangle, near_triangle(coarse, triangle)));
   }
+  for (size_t e = 0; 2 * e < mesh.edges.size(); ++e) {
+    const uint32_t i = mesh.edges[2 * e], j = mesh.edges[2 * e + 1];
+    if (!mesh.pinned[i] || !mesh.pinned[j]) continue;
+    const Vector3d a = point(frame.particles, i), b = point(frame.particles, j);
+    pinned = std::max(pinned, depth_of_samples({a, b, b}, near_triangle(coarse, {a, b, b})));
+  }
   keep_largest(particle_depth_, particle);
   keep_largest(interior_depth_, interior);
+  keep_largest(pinned_depth_, pinned);
   if (frame.drawn_vertices.empty()) return;
   const Bodies curved = near_cloth(all, frame.drawn_vertices);
   for (size_t t = 0; !curved.capsules.empty() && 3 * t < frame.drawn_triangles.size(); ++t) {
@@ -149,6 +156,7 @@ Quality QualityMeter::result() const {
   quality.stretch_rms_percent = 100.0 * rms(squared_stretch_, stretches_);
   quality.penetration_particle_mm = millimetres(particle_depth_);
   quality.penetration_interior_mm = millimetres(interior_depth_);
+  quality.penetration_pinned_mm = millimetres(pinned_depth_);
   quality.penetration_drawn_mm = millimetres(drawn_depth_);
   if (crossings_) {
     const double frames = double(frame_elongation_.size());

@@ -22,6 +22,7 @@ struct Quality {
   double stretch_rms_percent = 0.0;  ///< over the elongated edges of all frames
   std::optional<double> penetration_particle_mm;
   std::optional<double> penetration_interior_mm;  ///< 45 samples of each coarse triangle
+  std::optional<double> penetration_pinned_mm;    ///< of it between two pins, where no contact can move the cloth
   std::optional<double> penetration_drawn_mm;     ///< exact over the drawn triangles; for meshes at their corners
   std::optional<double> crossings_per_frame;      ///< coarse edges through triangles of their own cloth, mean
   std::optional<double> crossing_depth_mm;        ///< the deepest of them in any frame
@@ -68,8 +69,8 @@ class QualityMeter {
   std::vector<double> frame_elongation_;  // the largest of each frame
   double squared_strain_ = 0.0, squared_stretch_ = 0.0, squared_motion_ = 0.0;
   size_t strains_ = 0, stretches_ = 0, motions_ = 0;
-  std::optional<double> particle_depth_, interior_depth_, drawn_depth_;  // m
-  std::optional<Crossings> crossings_, drawn_crossings_;                 // of all frames
+  std::optional<double> particle_depth_, interior_depth_, pinned_depth_, drawn_depth_;  // m
+  std::optional<Crossings> crossings_, drawn_crossings_;                                // of all frames
 };
 
 }  // namespace pleat::demo

@@ -95,6 +95,7 @@ nlohmann::ordered_json to_json(const Quality& quality) {
   };
   put("penetration_particle_mm", quality.penetration_particle_mm);
   put("penetration_interior_mm", quality.penetration_interior_mm);
+  put("penetration_pinned_mm", quality.penetration_pinned_mm);
   put("penetration_drawn_mm", quality.penetration_drawn_mm);
   put("crossings_per_frame", quality.crossings_per_frame);
   put("crossing_depth_mm", quality.crossing_depth_mm);

@@ -101,7 +101,14 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   } else if (!request.clip.empty()) {
     throw InputError(file.name(), "this scene has no motion that --clip could replace");
   }
+  if (request.speed != 1.0 && !motion.motion) {
+    throw InputError(file.name(), "this scene has no motion that --speed could change");
+  }
   def.motion = motion.motion;
+  if (request.speed != 1.0) {
+    def.motion = [at = motion.motion, speed = request.speed](double s) { return at(s < 0.0 ? s : speed * s); };
+    if (motion.duration) *motion.duration /= request.speed;
+  }
   def.body = std::move(motion.body);
   if (!def.body.positions.empty()) def.body.positions = def.motion(-motion.settle).vertices;
   def.settle = motion.settle;

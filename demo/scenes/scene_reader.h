@@ -15,6 +15,7 @@ struct SceneRequest {
   std::optional<double> rate;  ///< frames a second
   std::optional<uint32_t> frames;
   std::vector<std::string> settings;  ///< `key=value`, fields of pleat_cloth_settings
+  double speed = 1.0;                 ///< how many times as fast the scene's motion goes, from frame 0 on
 };
 
 /// Reads a scene file (its format: README.md here). Throws InputError that names file and key, or the option.

@@ -224,6 +224,20 @@ TEST(Scene, TheSkirtOfAClipClearsTheFigureAtTheWaist) {
   EXPECT_TRUE(def.ground);
 }
 
+TEST(Scene, SpeedIsThatOfTheMotionOnceItHasBegun) {
+  SceneRequest request;
+  request.scene = "skirt_kick";
+  const SceneDef once = load_scene(api(), request);
+  request.speed = 3.0;
+  const SceneDef thrice = load_scene(api(), request);
+  for (const double seconds : {0.0, 0.1, 0.7}) {
+    EXPECT_EQ(thrice.motion(seconds).capsules[1].b, once.motion(3.0 * seconds).capsules[1].b);
+  }
+  EXPECT_EQ(thrice.motion(-0.2).capsules[1].b, once.motion(-0.2).capsules[1].b);
+  request.scene = "hanging_square";
+  EXPECT_THROW(load_scene(api(), request), InputError) << "nothing moves";
+}
+
 TEST(Scene, RealClipsCanBePlayed) {
   const std::filesystem::path data = std::filesystem::path(PLEAT_SHARED_DATA) / "mocap";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << "no real data at " << data;

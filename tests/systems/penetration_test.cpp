@@ -64,6 +64,22 @@ TEST(Penetration, CapsulesAreExactAtTheTicksStartAndWithoutTheirThickness) {
   EXPECT_NEAR(depths(triangle_at(0.0f), tapered).face, 0.07f / std::sqrt(1.0f - 0.06f * 0.06f), 2e-4f);
 }
 
+/// Two pins may be outside and the edge between them inside: no contact can move it.
+TEST(Penetration, AnEdgeBetweenPinsIsAsDeepAsItsDeepestPoint) {
+  ContactCloth cloth = triangle_at(0.0f);
+  CapsuleColumns ball(memory());
+  const Vec3 middle = (cloth.position.view()[1] + cloth.position.view()[2]) * 0.5f;
+  add_capsule(ball, middle + Vec3{0, 0.07f, 0}, middle + Vec3{0, 0.07f, 0}, 0.1f);
+  EXPECT_EQ(depths(cloth, ball).pin, 0.0f);  // one end is free
+  const float s = 0.2f * std::numbers::sqrt3_v<float>;
+  const ContactCloth held({{0.0f, 0.0f, 0.4f}, {s, 0.0f, -0.2f}, {-s, 0.0f, -0.2f}}, {{0, 1, 2}}, {1, 2});
+  const PenetrationDepths found = depths(held, ball);
+  EXPECT_NEAR(found.pin, 0.03f, 1e-6f);
+  EXPECT_NEAR(found.face, 0.03f, 1e-6f);
+  EXPECT_EQ(found.pins_inside, 0u);
+  EXPECT_EQ(found.particle, 0.0f);
+}
+
 TEST(Penetration, PropertyCapsulesAgreeWithDenseSamples) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-0.5f, 0.5f);
