@@ -144,11 +144,13 @@ void run_substep(ClothTick& t) {
 /// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
 std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
 #ifdef PLEAT_WITH_COLLISION
-  if (t.world.capsules.size() == 0) return 1;
+  if (t.world.capsules.size() == 0 && t.world.meshes.empty()) return 1;
   const SubstepBound bound{.particle_count = t.garment.particle_count,
                            .position = t.position,
                            .velocity = t.velocity,
                            .capsules = &t.world.capsules,
+                           .meshes = t.world.mesh_pointers.data(),
+                           .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
                            .thickness = t.settings.thickness,
                            .dt = dt};
   assert(bound.validate());

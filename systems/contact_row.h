@@ -7,15 +7,17 @@
 
 namespace pleat {
 
+inline constexpr float kLeastMargin = 0.01f;  // m
+
 /// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
-/// may be moved against: 10 mm, or more for a cloth that moves further in the substep. m
+/// may be moved against: kLeastMargin, or more for a cloth that moves further in the substep. m
 inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
   float motion2 = 0.0f;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 d = position[i] - previous[i];
     motion2 = std::max(motion2, dot(d, d));
   }
-  return std::max(0.01f, std::sqrt(motion2));
+  return std::max(kLeastMargin, std::sqrt(motion2));
 }
 
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s

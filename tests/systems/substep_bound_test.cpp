@@ -85,5 +85,26 @@ TEST(SubstepBound, AnyMotionHasAnAnswer) {
   EXPECT_EQ(job.run(), SubstepBound::kMost);
 }
 
+TEST(SubstepBound, AMeshAsFarAsItsFeaturesAreLookedFor) {
+  Crossing c({0, 5, 0}, {0, 5, 0});
+  MeshCollider ball(std::pmr::new_delete_resource());
+  ball.previous.resize(1), ball.next.resize(1);
+  const MeshCollider* const meshes[] = {&ball};
+  SubstepBound job = c.job();
+  job.meshes = meshes, job.mesh_count = 1;
+  const auto go = [&](const Vec3& from, const Vec3& to) {
+    ball.previous.view().set(0, from), ball.next.view().set(0, to);
+    return job.run();
+  };
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 27u);  // .4 m in steps of .015 m
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, 0.2f, 0}), 1u);
+  EXPECT_EQ(go({5, 0.2f, 0}, {5, -0.2f, 0}), 1u);  // beside the cloth
+  c.set_velocity({0, -12, 0});
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1u);  // carries it along
+  ball.enabled = false;
+  c.set_velocity({});
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1u);
+}
+
 }  // namespace
 }  // namespace pleat
