@@ -181,6 +181,7 @@ std::string stage_group(const std::string& system) {
       {"velocity_update", "integration"}, {"stretch_constraint", "stretch"},
       {"collider_motion", "collision"},   {"capsule_detection", "collision"},
       {"self_candidates", "self"},        {"self_detection", "self"},
+      {"layer_candidates", "layers"},     {"layer_detection", "layers"},
       {"mesh_detection", "collision"},    {"collision_response", "collision"},
       {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
       {"contact_velocity", "collision"},  {"collision_last_word", "collision"},

@@ -12,7 +12,7 @@ namespace pleat {
 struct ContactRow {
   std::uint32_t particle[4];  // cloth-local
   float weight[4];
-  std::uint32_t count;  // of particles: 1, 3 or 4
+  std::uint32_t count;  // of particles: 1 to 4; 4 is the cloth against itself
   Vec3 normal;          // out of the body, unit
   float offset;         // d, m
   Vec3 body_step;       // motion of the touched point of the body over the substep, m

@@ -7,20 +7,24 @@
 
 namespace pleat {
 
+struct Garment;
+
 enum class NearKind : std::uint32_t {
-  kParticleFace,  // a particle of the first cloth, a face of the second
-  kEdges          // an edge of each
+  kParticleFace,       // first: a particle, second: a face
+  kEdges,              // an edge each
+  kOtherParticleFace,  // as the first, but the particle is the other cloth's and the face the own one
 };
 
 /// Two features of one cloth, or of two. What a remembered side means is written at `Closeness`.
 struct NearPair {
   NearKind kind;
   std::uint32_t first, second;  // cloth-local
+  std::uint32_t cloth;          // the other one: its place among the world's; 0 where there is none
   float distance;               // m, to be kept between them
   float side;                   // 1 or -1; 0: not yet known
 };
 
-/// Room for pairs: by kind, then in the order of their second features.
+/// Room for pairs: by cloth, kind and second feature.
 struct NearPairList {
   NearPair* pairs = nullptr;
   std::uint32_t capacity = 0;
@@ -38,6 +42,24 @@ struct SelfColumns {
   explicit SelfColumns(std::pmr::memory_resource* m) : pairs(m), sought_at(m) {}
 };
 
+/// A cloth as those of higher layers see it: it moves in straight lines over the tick.
+struct LayerCloth {
+  const Garment* garment = nullptr;
+  std::uint32_t layer = 0;
+  ConstVec3View begin, end;  // (P) m, when the tick begins and ends
+  Vec3 low, high;            // of the box around both
+};
+
+/// What layers keep; ranges as those of SelfColumns.
+struct LayerColumns {
+  Column<NearPair> pairs;
+  Vec3Column sought_at;        // m
+  Vec3Column begin;            // m, where particles were when the tick began
+  Column<LayerCloth> clothes;  // all of the world, brought up to date one by one
+
+  explicit LayerColumns(std::pmr::memory_resource* m) : pairs(m), sought_at(m), begin(m), clothes(m) {}
+};
+
 /// What a grid of up to so many points takes, see PointGrid.
 struct GridScratch {
   Column<std::uint32_t> begin, filed;
@@ -51,14 +73,14 @@ struct GridScratch {
   }
 };
 
-/// Room for the pairs of the last search, for the edges' middles of the largest cloth, and for a grid of its particles
-/// or of these.
+/// Room for the pairs of the last search, for the edges' middles and the particles of the largest cloth, and for a grid
+/// of either.
 struct NearScratch {
   Column<NearPair> pairs;
-  Vec3Column middle;
+  Vec3Column middle, pose;
   GridScratch grid;
 
-  explicit NearScratch(std::pmr::memory_resource* m) : pairs(m), middle(m), grid(m) {}
+  explicit NearScratch(std::pmr::memory_resource* m) : pairs(m), middle(m), pose(m), grid(m) {}
 };
 
 }  // namespace pleat

@@ -8,7 +8,7 @@ namespace pleat {
 struct Stats {
   std::uint64_t particle_contacts = 0;   // rows at one particle that pushed
   std::uint64_t face_contacts = 0;       // rows on edges and faces that pushed
-  std::uint64_t self_contacts = 0;       // rows of a particle and a face of its own cloth that pushed
+  std::uint64_t self_contacts = 0;       // rows of a cloth against itself that pushed
   std::uint64_t contacts_dropped = 0;    // touching places beyond the contact capacity
   std::uint64_t edges_skipped = 0;       // met by the strain limit while shorter than 1e-9 m
   std::uint64_t fast_bodies = 0;         // ticks of a cloth in which a body outran the substeps

@@ -1,5 +1,6 @@
 #include "engine/border.h"
 #include "engine/calls.h"
+#include "engine/layers.h"
 #include "engine/schedule.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/self_candidates.h"
@@ -33,7 +34,8 @@ const pleat_cloth_def& default_cloth() {
                   .inner_friction = 0.1f,
                   .fold_sweeps = 0,
                   .self_distance = 0.0f,
-                  .tangents = 0};
+                  .tangents = 0,
+                  .layer = 0};
     return d;
   }();
   return def;
@@ -62,6 +64,8 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("self_distance", s.self_distance, 0, 1);
   need_compiled(kHasCollision || s.self_distance == 0.0f, "self_distance", "PLEAT_COLLISION");
   need_range("tangents", s.tangents, 0, 1);
+  need_range("layer", s.layer, 0, 15);
+  need_compiled(kHasCollision || s.layer == 0, "layer", "PLEAT_COLLISION");
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 
@@ -214,6 +218,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     }
     move_pins_to_particles(world, record);
     record.self_pair_count = kNone;
+    forget_layer_pairs(world);
     refresh(world, record);
   });
 }

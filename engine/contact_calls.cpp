@@ -4,6 +4,7 @@
 #include "engine/border.h"
 #include "engine/calls.h"
 #ifdef PLEAT_WITH_COLLISION
+#include "systems/crossings.h"
 #include "systems/penetration.h"
 #endif
 
@@ -38,7 +39,25 @@ void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_repo
     report.deepest = {handle.index, handle.generation};
   }
 }
+PosedCloth posed(const World& world, const ClothRecord& cloth) {
+  return {&cloth.garment(), world.particles.position.view().from(cloth.particle_begin)};
+}
+
+std::size_t crossings(const World& world, const ClothRecord& edges, const ClothRecord& faces) {
+  const Crossings search{posed(world, edges), posed(world, faces), &edges == &faces, &world.near_scratch};
+  assert(search.validate());
+  return search.run();
+}
+
+void add_crossings(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {
+  if (cloth.settings.self_distance > 0.0f) report.self_crossings = crossings(world, cloth, cloth);
+  for (const ClothRecord& below : world.clothes) {
+    if (below.settings.layer == 0 || below.settings.layer >= cloth.settings.layer) continue;
+    report.layer_crossings += crossings(world, cloth, below) + crossings(world, below, cloth);
+  }
+}
 #else
+void add_crossings(const World&, const ClothRecord&, pleat_contact_report&) {}
 void add_depths(const World&, const ClothRecord&, pleat_contact_report&) {}
 #endif
 
@@ -57,6 +76,7 @@ pleat_result cloth_contact_report(const pleat_world* handle, pleat_cloth cloth, 
     all.self_contacts = record.contacts.self;
     all.contacts_dropped = record.contacts.dropped;
     add_depths(world, record, all);
+    add_crossings(world, record, all);
     std::memcpy(report, &all, report->size);
   });
 }

@@ -213,6 +213,9 @@ typedef struct pleat_cloth_settings {
   float self_distance;    /* kept between parts of the cloth itself, m; at most a quarter of the mean edge's length is,
                              and asking for more logs a warning; default 0: it passes through itself */
   uint32_t tangents;      /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
+  uint32_t layer; /* of clothes worn over each other: cloths of layer 2 and up rest on those of lower layers from
+                     1 on, as on moving bodies, `thickness` apart, and do not press on them; at most 15,
+                     default 0: meets no other cloth */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -326,6 +329,9 @@ typedef struct pleat_contact_report {
   float face_depth;       /* of any point of the coarse triangles; in meshes, boxes and hulls of 45 points of each */
   float drawn_depth;      /* of any point of the drawn triangles; in meshes, boxes and hulls of their vertices */
   pleat_collider deepest; /* where the largest of these is; zero when all are 0 */
+  /* What contact of cloth with cloth missed: coarse edges that pass through coarse triangles. */
+  uint64_t self_crossings;  /* of the cloth itself, where its self_distance is not 0 */
+  uint64_t layer_crossings; /* of it and the layers below, both ways */
 } pleat_contact_report;
 
 /* What world_debug_draw shows. */

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "components/tethers.h"
+#include "engine/layers.h"
 #include "engine/schedule_table.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
 constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
-constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of a cloth that touches itself, and bodies
+constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of cloth that touches cloth
 constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
 constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
 constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
@@ -81,8 +82,11 @@ void make_room(World& world, const ClothRecord& cloth) {
     at_least(world.self.pairs, SelfColumns::kPairsPerParticle * particles);
   }
 #ifdef PLEAT_WITH_COLLISION
-  if (touches_itself) {
+  make_layer_room(world, cloth);
+  if (touches_itself || cloth.settings.layer > 1) {
     at_least(world.contacts, kSelfContactsPerParticle * std::size_t{g.particle_count});
+  }
+  if (touches_itself) {
     at_least(world.near_scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
     world.near_scratch.grid.make_room(NearSearch::most_points(g));
     at_least(world.near_scratch.middle, g.edge_count);
@@ -297,7 +301,15 @@ void tick(World& world, float dt) {
   ++world.ticks;
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = 0;
   update_bodies(world);
-  for (ClothRecord& cloth : world.clothes) tick_cloth(world, cloth, dt);
+  begin_layers(world);
+  const std::uint32_t top = top_layer(world);
+  for (std::uint32_t layer = 0; layer <= top; ++layer) {
+    for (std::uint32_t i = 0; i < world.clothes.size(); ++i) {
+      if (world.clothes[i].settings.layer != layer) continue;
+      tick_cloth(world, world.clothes[i], dt);
+      publish_layer(world, i);
+    }
+  }
   world.time += static_cast<double>(dt);
   settle_poses(world);
 }

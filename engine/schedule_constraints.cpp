@@ -10,6 +10,8 @@
 #include "systems/collision_response.h"
 #include "systems/contact_friction.h"
 #include "systems/contact_row.h"
+#include "systems/layer_candidates.h"
+#include "systems/layer_detection.h"
 #include "systems/mesh_candidates.h"
 #include "systems/mesh_detection.h"
 #include "systems/plane_detection.h"
@@ -55,6 +57,38 @@ constexpr Row kRows[] = {
                          .friction = t.settings.friction,
                          .dt = t.dt,
                          .contacts = contacts_of(t)},
+           t.world.stats);
+     }},
+    {Phase::kContact, "layer_candidates", with_layers,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(LayerCandidates{.garment = &t.garment,
+                           .position = t.position,
+                           .previous = t.previous,
+                           .layer = t.settings.layer,
+                           .clothes = layer_cloths(w),
+                           .t0 = t.t0,
+                           .t1 = t.t1,
+                           .distance = t.settings.thickness,
+                           .pairs = layer_pairs_of(t),
+                           .sought_at = w.layers.sought_at.view().from(t.cloth.particle_begin),
+                           .t_sought = &t.cloth.layers_sought,
+                           .scratch = &w.near_scratch},
+           w.stats);
+     }},
+    {Phase::kContact, "layer_detection", with_layers,
+     [](ClothTick& t) {
+       run(LayerDetection{.garment = &t.garment,
+                          .position = t.position,
+                          .previous = t.previous,
+                          .inverse_mass = t.inverse_mass,
+                          .clothes = layer_cloths(t.world),
+                          .t0 = t.t0,
+                          .t1 = t.t1,
+                          .pairs = layer_pairs_of(t),
+                          .friction = t.settings.friction,
+                          .dt = t.dt,
+                          .contacts = contacts_of(t)},
            t.world.stats);
      }},
     {Phase::kContact, "collider_motion", with_capsules,

@@ -35,8 +35,11 @@ inline const char* with_meshes(const World& w, const ClothRecord&) {
 inline const char* with_itself(const World&, const ClothRecord& c) {
   return c.settings.self_distance > 0.0f ? kNeeded : "self_distance is 0";
 }
+inline const char* with_layers(const World&, const ClothRecord& c) {
+  return c.settings.layer > 1 ? kNeeded : c.settings.layer == 1 ? "the innermost layer" : "layer is 0";
+}
 inline const char* with_contacts(const World& w, const ClothRecord& c) {
-  return with_itself(w, c) == kNeeded ? kNeeded : with_colliders(w, c);
+  return with_itself(w, c) == kNeeded || with_layers(w, c) == kNeeded ? kNeeded : with_colliders(w, c);
 }
 
 #ifdef PLEAT_WITH_COLLISION
@@ -64,6 +67,14 @@ inline NearPairList self_pairs_of(ClothTick& t) {
   constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;
   return {t.world.self.pairs.data() + std::size_t{kPairs} * t.cloth.particle_begin, kPairs * t.garment.particle_count,
           &t.cloth.self_pair_count};
+}
+inline NearPairList layer_pairs_of(ClothTick& t) {
+  constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;
+  return {t.world.layers.pairs.data() + std::size_t{kPairs} * t.cloth.particle_begin, kPairs * t.garment.particle_count,
+          &t.cloth.layer_pair_count};
+}
+inline std::span<const LayerCloth> layer_cloths(const World& w) {
+  return {w.layers.clothes.data(), w.layers.clothes.size()};
 }
 #endif
 

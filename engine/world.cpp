@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "engine/layers.h"
+
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
 #else
@@ -96,6 +98,7 @@ World::World(const pleat_world_def& definition)
       held(&memory),
       runge_kutta(&memory),
       self(&memory),
+      layers(&memory),
       surface(&memory),
       drawn(&memory),
       capsules(&memory),
@@ -198,12 +201,15 @@ void remove_cloth(World& world, std::uint32_t position) {
   }
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
-  for (Vec3Column* column : {&world.held, &world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
-                             &world.runge_kutta.velocity_slope, &world.self.sought_at}) {
+  for (Vec3Column* column :
+       {&world.held, &world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
+        &world.runge_kutta.velocity_slope, &world.self.sought_at, &world.layers.sought_at, &world.layers.begin}) {
     erase_if_present(*column, cloth.particle_begin, particles);
   }
   constexpr std::size_t kPairs = SelfColumns::kPairsPerParticle;
   erase_if_present(world.self.pairs, kPairs * cloth.particle_begin, kPairs * particles);
+  erase_if_present(world.layers.pairs, kPairs * cloth.particle_begin, kPairs * particles);
+  erase_if_present(world.layers.clothes, position, 1);
   world.pin_previous.erase(cloth.pin_begin, pins);
   world.pin_next.erase(cloth.pin_begin, pins);
   erase_if_present(world.surface.normal, cloth.normal_begin, normals);
@@ -213,6 +219,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   close_drawn_gap(world, cloth);
 
   world.clothes.erase(world.clothes.begin() + position);
+  forget_layer_pairs(world);
   for (std::size_t i = position; i < world.clothes.size(); ++i) {
     ClothRecord& later = world.clothes[i];
     later.particle_begin -= particles;
@@ -236,6 +243,9 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
   }
   if (settings.self_distance != cloth.settings.self_distance) cloth.self_pair_count = kNone;
+  if (settings.layer != cloth.settings.layer || settings.thickness != cloth.settings.thickness) {
+    cloth.layer_pair_count = kNone;
+  }
   cloth.settings = settings;
   set_masses(world, cloth);
 }
@@ -245,7 +255,8 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const std::uint64_t particle =
       5 * sizeof(Vec3) + 2 * sizeof(float) + (world.held.size() != 0 ? sizeof(Vec3) : 0) +
       (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
-      (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);
+      (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0) +
+      (world.layers.pairs.size() != 0 ? 2 * sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);
   const std::uint64_t normal = world.surface.normal.size() != 0 ? sizeof(Vec3) : 0;
   const std::uint64_t edge = world.surface.fold.size() != 0 ? sizeof(Vec3) + 2 * sizeof(float) : 0;
   const std::uint64_t drawn = 2 * sizeof(Vec3) + (world.drawn.tangent.size() != 0 ? sizeof(Vec3) + sizeof(float) : 0);

@@ -54,7 +54,8 @@ struct ClothRecord {
   std::uint32_t particle_begin = 0, pin_begin = 0, normal_begin = 0, edge_begin = 0, drawn_begin = 0;
   std::uint32_t substeps_taken = 0;
   ContactCounts contacts;
-  std::uint32_t self_pair_count = kNone;  // none were sought yet
+  std::uint32_t self_pair_count = kNone, layer_pair_count = kNone;  // none were sought yet
+  float layers_sought = 0.0f;                                       // for which fraction of the tick the latter were
   Plan plan = 0;
 
   const Garment& garment() const { return source->garment; }
@@ -108,6 +109,7 @@ struct World {
   Vec3Column held;                    // m/s2, what inner friction holds at rest; empty unless a cloth has it
   RungeKuttaColumns runge_kutta;      // empty unless a cloth integrates by it
   SelfColumns self;                   // empty unless a cloth touches itself
+  LayerColumns layers;                // empty unless a cloth has a layer
   SurfaceColumns surface;             // empty unless a cloth is drawn curved
   DrawnColumns drawn;                 // empty where smoothing is compiled out
 
@@ -122,8 +124,8 @@ struct World {
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
   Column<float> detection_scratch;
-  NearScratch near_scratch;         // empty unless cloth touches cloth
-  Column<FoldChoice> fold_choices;  // empty unless a cloth folds
+  mutable NearScratch near_scratch;  // empty unless cloth touches cloth
+  Column<FoldChoice> fold_choices;   // empty unless a cloth folds
   Column<FoldSprings> fold_springs;
   Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;

@@ -47,9 +47,7 @@ Facing face_edge(const Vec3 (&x)[4]) {
   return f;
 }
 
-Facing facing(NearKind kind, const Vec3 (&x)[4]) {
-  return kind == NearKind::kParticleFace ? face_particle(x) : face_edge(x);
-}
+Facing facing(NearKind kind, const Vec3 (&x)[4]) { return kind == NearKind::kEdges ? face_edge(x) : face_particle(x); }
 
 /// At the moment between `before` and x when the four points lie in one plane, found by false position.
 Facing meeting(NearKind kind, const Vec3 (&before)[4], const Vec3 (&x)[4], float volume_before, float volume) {

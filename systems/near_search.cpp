@@ -1,5 +1,7 @@
 #include "systems/near_search.h"
 
+#include <tuple>
+
 #include "systems/closest_points.h"
 #include "systems/point_grid.h"
 
@@ -15,7 +17,7 @@ void add(const NearSearch& in, NearPair pair, float rest_distance, Stats& stats)
   }
   pair.distance = in.itself ? std::min(in.distance, kRestShare * rest_distance) : in.distance;
   const auto of_the_same = [&](const NearPair* p) {
-    return p != in.memory->end && p->kind == pair.kind && p->second == pair.second;
+    return p != in.memory->end && p->cloth == pair.cloth && p->kind == pair.kind && p->second == pair.second;
   };
   const NearPair* before = in.memory->next;
   while (of_the_same(before) && before->first != pair.first) ++before;
@@ -93,16 +95,16 @@ std::size_t NearSearch::most_points(const Garment& garment) {
   return std::max(garment.particle_count, garment.edge_count);
 }
 
-void NearSearch::find_particle_face(Stats& stats) const {
+void NearSearch::find_particle_face(NearKind kind, Stats& stats) const {
   const Garment& g = *second.garment;
   const float around = std::max(reach, wide);
   const PointGrid grid(first.position, first.garment->particle_count, g.mean_edge_length + around, scratch->grid);
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
     const Prism prism(second, f);
-    remember(*this, NearKind::kParticleFace, f);
+    remember(*this, kind, f);
     grid.for_each_near(prism.box.grown(around), [&](std::uint32_t p, const Vec3& x) {
       if ((itself && prism.has_corner(p)) || !prism.holds(x, reach, wide)) return;
-      add(*this, {NearKind::kParticleFace, p, f, 0.0f, 0.0f}, itself ? rest_distance_to_face(g, p, f) : 0.0f, stats);
+      add(*this, {kind, p, f, cloth, 0.0f, 0.0f}, itself ? rest_distance_to_face(g, p, f) : 0.0f, stats);
     });
   }
 }
@@ -128,7 +130,7 @@ void NearSearch::find_edges(Stats& stats) const {
       if (dot(between, between) > around * around) return;
       const Edge other(first, o);
       if ((itself && other.shares_end(edge)) || distance_between(other.x, edge.x) > reach) return;
-      add(*this, {NearKind::kEdges, o, e, 0.0f, 0.0f},
+      add(*this, {NearKind::kEdges, o, e, cloth, 0.0f, 0.0f},
           itself ? rest_distance_between(*first.garment, other, edge) : 0.0f, stats);
     });
   }

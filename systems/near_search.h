@@ -23,6 +23,7 @@ struct NearMemory {
 struct NearSearch {
   PosedCloth first, second;
   bool itself = false;              // first and second are the same cloth
+  std::uint32_t cloth = 0;          // of the pairs
   float distance = 0.0f;            // m, to be kept
   float reach = 0.0f, wide = 0.0f;  // m
   NearScratch* scratch = nullptr;
@@ -33,7 +34,7 @@ struct NearSearch {
   static std::size_t most_points(const Garment& garment);
 
   /// Particles of the first cloth and faces of the second; of one cloth, those that are no corner.
-  void find_particle_face(Stats& stats) const;
+  void find_particle_face(NearKind kind, Stats& stats) const;
   /// Edges of the first and of the second cloth; of one cloth, each two that share no particle once.
   void find_edges(Stats& stats) const;
 };

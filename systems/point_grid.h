@@ -13,7 +13,7 @@ namespace pleat {
 /// asked for, or larger where that would make more than two for each point.
 class PointGrid {
  public:
-  /// cell_size > 0, m. The scratch stays in use.
+  /// cell_size: m. The scratch stays in use.
   PointGrid(ConstVec3View points, std::uint32_t count, float cell_size, GridScratch& scratch)
       : box_(box_of(points, count)),
         begin_(scratch.begin.data()),
@@ -23,7 +23,7 @@ class PointGrid {
     const auto cells_along = [&](int axis) {
       return 1.0 + double{std::min(at(extent, axis), kFarthest)} * double{inverse_size_};
     };
-    for (;; cell_size *= 1.25f) {
+    for (cell_size = std::max(kLeastCell, cell_size);; cell_size *= 1.25f) {
       inverse_size_ = 1.0f / cell_size;
       const double cells = cells_along(0) * cells_along(1) * cells_along(2);
       if (cells <= 2.0 * count + 1.0) break;
@@ -73,7 +73,7 @@ class PointGrid {
     return (z * cells_[1] + y) * cells_[0] + cell_at(along(p, 0), 0);
   }
 
-  static constexpr float kFarthest = 1e9f;  // m
+  static constexpr float kFarthest = 1e9f, kLeastCell = 1e-6f;  // m
 
   Box box_;
   float inverse_size_ = 1.0f;

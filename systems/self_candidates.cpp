@@ -56,7 +56,7 @@ void SelfCandidates::run(Stats& stats) const {
                           .scratch = scratch,
                           .memory = &memory,
                           .pairs = pairs};
-  search.find_particle_face(stats);
+  search.find_particle_face(NearKind::kParticleFace, stats);
   search.find_edges(stats);
 }
 

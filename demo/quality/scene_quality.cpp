@@ -53,8 +53,33 @@ Bodies SceneQuality::bodies_of(const RunningScene& scene, size_t copy) const {
   return bodies;
 }
 
+namespace {
+
+/// Puts a surface behind others, in one mesh.
+void append(std::vector<float>& positions, std::vector<uint32_t>& triangles, std::span<const float> more_positions,
+            std::span<const uint32_t> more_triangles) {
+  const auto first = uint32_t(positions.size() / 3);
+  positions.insert(positions.end(), more_positions.begin(), more_positions.end());
+  for (const uint32_t corner : more_triangles) triangles.push_back(first + corner);
+}
+
+}  // namespace
+
+/// Of each layer with itself, and of all with each other.
+void SceneQuality::add_crossings_of_layers(const RunningScene& scene, std::span<const DrawnSurface> surfaces) {
+  std::vector<float> coarse, drawn;
+  std::vector<uint32_t> coarse_triangles, drawn_triangles;
+  for (size_t k = 0; k < surfaces.size(); ++k) {
+    scene.read_particles(k, particles_);
+    append(coarse, coarse_triangles, particles_, mesh_.triangles);
+    append(drawn, drawn_triangles, surfaces[k].positions(), surfaces[k].indices);
+  }
+  meter_.add_crossings(find_crossings(coarse, coarse_triangles), find_crossings(drawn, drawn_triangles));
+}
+
 void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSurface> surfaces) {
   meter_.begin_frame();
+  if (scene.def().crossings && scene.def().layered) add_crossings_of_layers(scene, surfaces);
   for (size_t k = 0; k < scene.copies(); ++k) {
     scene.read_particles(k, particles_);
     if (surfaces.empty()) {
@@ -63,7 +88,7 @@ void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSur
     }
     const std::vector<float> drawn = surfaces[k].positions();
     meter_.add_cloth(mesh_, {particles_, drawn, surfaces[k].indices}, bodies_of(scene, k));
-    if (!scene.def().crossings) continue;
+    if (!scene.def().crossings || scene.def().layered) continue;
     meter_.add_crossings(find_crossings(particles_, mesh_.triangles), find_crossings(drawn, surfaces[k].indices));
   }
 }

@@ -25,6 +25,7 @@ class SceneQuality {
   Quality result() const { return meter_.result(); }
 
  private:
+  void add_crossings_of_layers(const RunningScene& scene, std::span<const DrawnSurface> surfaces);
   Bodies bodies_of(const RunningScene& scene, size_t copy) const;
 
   ClothMesh mesh_;

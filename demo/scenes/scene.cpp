@@ -97,6 +97,7 @@ void Scene::create_copies() {
     api_.cloth_def_init(&cloth, sizeof cloth);
     cloth.garment = garment_;
     cloth.settings = def().settings;
+    if (def().layered) cloth.settings.layer = uint32_t(cloths_.size()) + 1;
     move_points(def().garment.positions, origin, moved_);
     cloth.positions = moved_.data();
     check(api_.cloth_create(world_, &cloth, &cloths_.emplace_back()), "cloth");

@@ -50,6 +50,7 @@ struct SceneDef {
   TriangleMesh body;  ///< a mesh that moves: its triangles, and where they are at first; may be empty
   BodyMotion motion;  ///< empty: nothing moves
   std::vector<Eigen::Vector3d> origins{Eigen::Vector3d::Zero()};  ///< a copy of garment, body and motion at each
+  bool layered = false;                   ///< the copies are worn over each other, the first innermost
   bool crossings = false;                 ///< is about cloth that passes through itself: worth counting
   std::optional<double> ground;           ///< y of a floor to draw
   Eigen::Vector3d view{0.55, 0.25, 1.0};  ///< towards the camera, any length

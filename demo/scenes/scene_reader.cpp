@@ -77,6 +77,16 @@ std::vector<Vector3d> read_copies(const JsonValue& copies) {
   return origins;
 }
 
+/// The same garment again and again, `spacing` above each other.
+std::vector<Vector3d> read_layers(const JsonValue& layers) {
+  layers.allow_keys({"count", "spacing"});
+  const uint32_t count = layers.at("count").integer(2, 15);
+  const double spacing = layers.at("spacing").number(0.001, 1.0);
+  std::vector<Vector3d> origins;
+  for (uint32_t k = 0; k < count; ++k) origins.push_back(spacing * Vector3d(0.0, k, 0.0));
+  return origins;
+}
+
 }  // namespace
 
 SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
@@ -86,7 +96,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   set_size(document, sized, file.name());
   const JsonValue scene(document, file.name());
   scene.allow_keys({"description", "N", "rate", "frames", "gravity", "wind", "garment", "settings", "colliders",
-                    "motion", "copies", "crossings", "ground", "view"});
+                    "motion", "copies", "layers", "crossings", "ground", "view"});
 
   SceneDef def;
   def.name = request.scene;
@@ -130,6 +140,12 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
     for (const JsonValue& body : colliders->items()) def.fixed.push_back(read_fixed_body(body, file));
   }
   if (const auto copies = scene.find("copies")) def.origins = read_copies(*copies);
+
+  if (const auto layers = scene.find("layers")) {
+    if (def.motion || scene.find("copies")) layers->fail("cannot be combined with `motion` or `copies`");
+    def.origins = read_layers(*layers);
+    def.layered = true;
+  }
 
   pleat_cloth_def cloth;
   api.cloth_def_init(&cloth, sizeof cloth);

@@ -43,7 +43,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"inner_friction", &S::inner_friction},
                               {"fold_sweeps", &S::fold_sweeps},
                               {"self_distance", &S::self_distance},
-                              {"tangents", &S::tangents}};
+                              {"tangents", &S::tangents},
+                              {"layer", &S::layer}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

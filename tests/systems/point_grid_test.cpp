@@ -23,7 +23,7 @@ struct Points {
 TEST(PointGrid, PropertyEveryPointInABoxIsVisitedOnce) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> place(-1.0f, 1.0f);
-  for (const float cell : {1e-6f, 0.05f, 0.3f, 100.0f}) {
+  for (const float cell : {0.0f, 1e-6f, 0.05f, 0.3f, 100.0f}) {
     for (const float flat : {1.0f, 0.0f}) {  // in space, and all in a plane
       Points points(200);
       for (std::size_t i = 0; i < 200; ++i)

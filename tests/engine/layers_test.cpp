@@ -1,0 +1,144 @@
+#ifdef PLEAT_WITH_COLLISION
+#include <cmath>
+#include <random>
+
+#include "tests/engine/counting_new.h"
+#include "tests/engine/scene.h"
+
+namespace pleat {
+namespace {
+
+pleat_cloth_settings in_layer(std::uint32_t layer) {
+  pleat_cloth_settings s = Scene::default_settings();
+  s.layer = layer;
+  s.friction = 0.5f;
+  return s;
+}
+
+pleat_contact_report report(Scene& scene, pleat_cloth cloth) {
+  pleat_contact_report r{};
+  r.size = sizeof r;
+  must(call::cloth_contact_report(scene, cloth, &r));
+  return r;
+}
+
+/// The cloth as it is, turned about the y axis and put somewhere else.
+void place(Scene& scene, pleat_cloth cloth, float x, float y, float z, float turn) {
+  std::vector<float> at = scene.particles(cloth);
+  at.resize(at.size() / 2);
+  for (std::size_t i = 0; i < at.size(); i += 3) {
+    const float px = at[i], pz = at[i + 2];
+    at[i] = std::cos(turn) * px + std::sin(turn) * pz + x;
+    at[i + 1] += y;
+    at[i + 2] = std::cos(turn) * pz - std::sin(turn) * px + z;
+  }
+  must(call::cloth_write_particles(scene, cloth, at.data(), nullptr, static_cast<std::uint32_t>(at.size() / 3)));
+}
+
+TEST(Layers, LeftOutUnlessAskedFor) {
+  Scene scene;
+  scene.cloth(scene.sheet(6));
+  scene.step(2);
+  EXPECT_TRUE(scene.explain("layer_candidates").ends_with("left out: layer is 0"));
+  EXPECT_TRUE(scene.explain("layer_detection").ends_with("left out: layer is 0"));
+  EXPECT_EQ(scene.inside().layers.begin.size() + scene.inside().layers.pairs.size(), 0u);
+  EXPECT_EQ(scene.inside().contacts.size(), 0u);
+  Scene inner;
+  inner.cloth(inner.sheet(6), in_layer(1));
+  EXPECT_TRUE(inner.explain("layer_detection").ends_with("left out: the innermost layer"));
+  inner.cloth(inner.sheet(6), in_layer(2));
+  EXPECT_TRUE(inner.explain("layer_detection").starts_with("layer_detection"));
+  EXPECT_NE(inner.explain("layer_detection").find("run for 1 of 2 cloths"), std::string::npos);
+  EXPECT_NE(inner.explain("collision_response").find("run for 1 of 2 cloths"), std::string::npos);
+}
+
+TEST(Layers, PropertyASheetDroppedOnAnotherNeverCrossesIt) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> aside(-0.4f, 0.4f), turn(-3.0f, 3.0f);
+  for (int trial = 0; trial < 6; ++trial) {
+    Scene scene;
+    const pleat_garment garment = scene.sheet(9);
+    scene.sphere(0, -0.35f, 0, 0.3f);
+    // The upper one is made first: the layers, not the order of making, say who runs first.
+    const pleat_cloth upper = scene.cloth(garment, in_layer(2)), lower = scene.cloth(garment, in_layer(1));
+    place(scene, upper, aside(random), 0.05f, aside(random), turn(random));
+    std::uint64_t crossings = 0, contacts = 0;
+    for (int tick = 0; tick < 120; ++tick) {
+      scene.step();
+      const pleat_contact_report r = report(scene, upper);
+      crossings += r.layer_crossings;
+      contacts += r.particle_contacts + r.face_contacts;
+    }
+    EXPECT_EQ(crossings, 0u) << trial;
+    EXPECT_GT(contacts, 100u) << trial;
+    EXPECT_EQ(report(scene, lower).layer_crossings, 0u);  // nothing is below it
+    EXPECT_EQ(scene.stats().contacts_dropped, 0u);
+    EXPECT_EQ(scene.stats().nonfinite_restored, 0u);
+  }
+}
+
+TEST(Layers, ThoseBelowDoNotFeelThoseAbove) {
+  Scene both, alone;
+  const pleat_garment garment = both.sheet(8);
+  const pleat_cloth upper = both.cloth(garment, in_layer(3)), lower = both.cloth(garment, in_layer(1));
+  const pleat_cloth same = alone.cloth(alone.sheet(8), in_layer(1));
+  place(both, upper, 0.1f, 0.02f, 0.1f, 0.3f);
+  both.step(40), alone.step(40);
+  EXPECT_GT(report(both, upper).face_contacts, 0u);
+  EXPECT_TRUE(same_bits(both.particles(lower), alone.particles(same)));
+}
+
+TEST(Layers, OfOneLayerOrOfNoneDoNotMeet) {
+  for (const std::uint32_t layer : {0u, 1u, 2u}) {
+    Scene both, alone;
+    const pleat_garment garment = both.sheet(8);
+    both.cloth(garment, in_layer(layer));
+    const pleat_cloth second = both.cloth(garment, in_layer(layer));
+    const pleat_cloth same = alone.cloth(alone.sheet(8), in_layer(layer));
+    both.step(20), alone.step(20);
+    EXPECT_TRUE(same_bits(both.particles(second), alone.particles(same))) << layer;
+  }
+}
+
+TEST(Layers, AreDeterministicAndAllocateNothingInATick) {
+  std::vector<float> first;
+  for (int run = 0; run < 2; ++run) {
+    Scene scene;
+    const pleat_garment garment = scene.sheet(9);
+    const pleat_cloth upper = scene.cloth(garment, in_layer(2));
+    scene.cloth(garment, in_layer(1));
+    place(scene, upper, 0.1f, 0.03f, 0.1f, 0.4f);
+    scene.step(2);
+    const std::uint64_t before = scene.stats().allocations;
+    scene.step(60);
+    EXPECT_EQ(scene.stats().allocations, before);
+    if (run == 0) first = scene.particles(upper);
+    EXPECT_TRUE(same_bits(first, scene.particles(upper)));
+  }
+}
+
+TEST(Layers, SurviveComingAndGoingOfCloths) {
+  Scene scene;
+  const pleat_garment garment = scene.sheet(8);
+  const pleat_cloth other = scene.cloth(garment), lower = scene.cloth(garment, in_layer(1)),
+                    upper = scene.cloth(garment, in_layer(2));
+  place(scene, upper, 0.1f, 0.02f, 0.1f, 0.3f);
+  Scene alone;
+  const pleat_garment same = alone.sheet(8);
+  alone.cloth(same, in_layer(1));
+  const pleat_cloth same_upper = alone.cloth(same, in_layer(2));
+  place(alone, same_upper, 0.1f, 0.02f, 0.1f, 0.3f);
+  scene.step(10), alone.step(10);
+  EXPECT_TRUE(same_bits(scene.particles(upper), alone.particles(same_upper)));
+  must(call::cloth_destroy(scene, other));
+  scene.step(10), alone.step(10);
+  EXPECT_EQ(report(scene, upper).layer_crossings, 0u);
+  must(call::cloth_destroy(scene, lower));
+  scene.cloth(garment, in_layer(1));
+  scene.step(10);
+  EXPECT_EQ(scene.stats().nonfinite_restored, 0u);
+}
+
+}  // namespace
+}  // namespace pleat
+#endif

@@ -1,0 +1,136 @@
+#include "systems/layer_detection.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/box.h"
+#include "systems/collision_response.h"
+#include "systems/layer_candidates.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kDistance = 0.005f, kDt = 0.002f;
+
+/// A cloth over another one, which moves from where it was built by `step` in a tick.
+struct Layered {
+  ContactCloth own, below;
+  Vec3Column begin{memory()}, end{memory()}, sought_at{memory()};
+  std::vector<NearPair> pairs = std::vector<NearPair>(512);
+  std::uint32_t pair_count = kNone;
+  float t_sought = 0.0f;
+  NearScratch scratch{memory()};
+  LayerCloth clothes[2];
+  Stats stats;
+
+  Layered(ContactCloth upper, ContactCloth lower, const Vec3& step) : own(std::move(upper)), below(std::move(lower)) {
+    const std::uint32_t count = below.garment.particle_count;
+    begin.resize(count), end.resize(count), sought_at.resize(own.garment.particle_count);
+    Box box;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      begin.view().set(i, below.x(i));
+      end.view().set(i, below.x(i) + step);
+      box.include(below.x(i));
+      box.include(below.x(i) + step);
+    }
+    clothes[1] = {&below.garment, 1, std::as_const(begin).view(), std::as_const(end).view(), box.low, box.high};
+    scratch.pairs.resize(512), scratch.middle.resize(64), scratch.pose.resize(64);
+    scratch.grid.make_room(64);
+  }
+  NearPairList list() { return {pairs.data(), 512, &pair_count}; }
+  void substep(float t0, float t1) {
+    const LayerCandidates search{.garment = &own.garment,
+                                 .position = own.position.view(),
+                                 .previous = own.previous.view(),
+                                 .layer = 2,
+                                 .clothes = clothes,
+                                 .t0 = t0,
+                                 .t1 = t1,
+                                 .distance = kDistance,
+                                 .pairs = list(),
+                                 .sought_at = sought_at.view(),
+                                 .t_sought = &t_sought,
+                                 .scratch = &scratch};
+    ASSERT_TRUE(search.validate());
+    search.run(stats);
+    own.row_count = 0;
+    const LayerDetection detection{.garment = &own.garment,
+                                   .position = own.position.view(),
+                                   .previous = own.previous.view(),
+                                   .inverse_mass = own.inverse_mass.data(),
+                                   .clothes = clothes,
+                                   .t0 = t0,
+                                   .t1 = t1,
+                                   .pairs = list(),
+                                   .friction = 0.3f,
+                                   .dt = kDt,
+                                   .contacts = own.contacts()};
+    ASSERT_TRUE(detection.validate());
+    detection.run(stats);
+    for (int sweep = 0; sweep < 10; ++sweep) {
+      CollisionResponse{own.contacts(), own.inverse_mass.data(), FaceResponse::kWeighted, own.position.view()}.run(
+          stats);
+    }
+  }
+};
+
+const std::vector<Vec3> kFloor = {{-0.1f, 0, -0.1f}, {-0.1f, 0, 0.2f}, {0.2f, 0, -0.1f}};
+const std::vector<Vec3> kTip = {{0, 0.012f, 0}, {0.05f, 0.3f, 0}, {0, 0.3f, 0.05f}};
+
+TEST(LayerDetection, AParticleIsCarriedByTheFaceBelow) {
+  Layered scene(ContactCloth(kTip, {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {0.01f, 0.02f, 0});
+  for (int s = 0; s < 8; ++s) {
+    for (std::uint32_t i = 0; i < 3; ++i) scene.own.put(i, scene.own.x(i), scene.own.x(i));
+    scene.substep(static_cast<float>(s) / 8, static_cast<float>(s + 1) / 8);
+  }
+  EXPECT_NEAR(scene.own.x(0).y, 0.02f + kDistance, 1e-5f);
+  ASSERT_EQ(scene.own.row_count, 1u);
+  const ContactRow& row = scene.own.rows[0];
+  EXPECT_TRUE(row.at_particle());
+  EXPECT_NEAR(row.normal.y, 1.0f, 1e-6f);
+  EXPECT_NEAR(row.body_step.x, 0.01f / 8, 1e-7f);
+  EXPECT_NEAR(row.body_step.y, 0.02f / 8, 1e-7f);
+}
+
+TEST(LayerDetection, AFaceRestsOnAParticleBelow) {
+  std::vector<Vec3> roof = kFloor, tip = kTip;
+  for (Vec3& p : roof) p.y = 0.012f;
+  for (Vec3& p : tip) p.y = -p.y + 0.012f;  // its tip is at 0, the rest hangs down
+  Layered scene(ContactCloth(roof, {{0, 1, 2}}), ContactCloth(tip, {{0, 1, 2}}), {0, 0.03f, 0});
+  for (int s = 0; s < 8; ++s) {
+    for (std::uint32_t i = 0; i < 3; ++i) scene.own.put(i, scene.own.x(i), scene.own.x(i));
+    scene.substep(static_cast<float>(s) / 8, static_cast<float>(s + 1) / 8);
+  }
+  // The plane of the roof passes kDistance over the tip, measured along its normal.
+  const Vec3 normal = normalized_or(cross(scene.own.x(1) - scene.own.x(0), scene.own.x(2) - scene.own.x(0)), {});
+  EXPECT_NEAR(dot(scene.own.x(0) - Vec3{0, 0.03f, 0}, normal), kDistance, 2e-5f);
+  ASSERT_EQ(scene.own.row_count, 1u);
+  EXPECT_EQ(scene.own.rows[0].count, 3u);
+}
+
+TEST(LayerDetection, EdgesCarryEdges) {
+  Layered scene(ContactCloth({{-0.05f, 0.012f, 0}, {0.05f, 0.012f, 0}, {0, 1, 0}}, {{0, 1, 2}}),
+                ContactCloth({{0, 0, -0.05f}, {0, 0, 0.05f}, {0, -1, 0}}, {{0, 1, 2}}), {0, 0.03f, 0});
+  for (int s = 0; s < 8; ++s) {
+    for (std::uint32_t i = 0; i < 3; ++i) scene.own.put(i, scene.own.x(i), scene.own.x(i));
+    scene.substep(static_cast<float>(s) / 8, static_cast<float>(s + 1) / 8);
+  }
+  EXPECT_NEAR(0.5f * (scene.own.x(0).y + scene.own.x(1).y), 0.03f + kDistance, 1e-5f);
+  ASSERT_EQ(scene.own.row_count, 1u);
+  EXPECT_EQ(scene.own.rows[0].count, 2u);
+  EXPECT_FALSE(scene.own.rows[0].at_particle());
+}
+
+TEST(LayerDetection, WithoutAreaThereIsNoRowAndNothingNotFinite) {
+  ContactCloth lower(kFloor, {{0, 1, 2}});
+  for (std::uint32_t i = 0; i < 3; ++i) lower.put(i, {}, {});
+  ContactCloth upper(kTip, {{0, 1, 2}});
+  for (std::uint32_t i = 0; i < 3; ++i) upper.put(i, {}, {});
+  Layered scene(std::move(upper), std::move(lower), {});
+  scene.substep(0.0f, 1.0f);
+  EXPECT_EQ(scene.own.row_count, 0u);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(is_finite(scene.own.x(i)));
+}
+
+}  // namespace
+}  // namespace pleat::test
