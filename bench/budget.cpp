@@ -173,6 +173,7 @@ double median_ratio(const std::vector<std::vector<double>>& ours, const std::vec
 std::string stage_group(const std::string& system) {
   static const std::map<std::string, std::string> kGroups = {
       {"elastic_force", "forces"},        {"hinge_bending", "forces"},
+      {"elastic_projection", "forces"},   {"implicit_integration", "integration"},
       {"edge_damping", "forces"},         {"gravity", "forces"},
       {"air_damping", "forces"},          {"air_drag", "forces"},
       {"inner_friction", "forces"},       {"tether_constraint", "stretch"},

@@ -71,7 +71,7 @@ int run_program(int argc, char** argv) {
   std::vector<std::string> known;
   for (const demo::SettingWord& word : demo::kIntegrators) known.emplace_back(word.name);
   auto* quick_flag = app.add_flag("--quick", quick, "some corners of the grid, 1 s each (what the tests run)");
-  app.add_flag("--full", full, "the whole grid, 4 s each (default)")->excludes(quick_flag);
+  app.add_flag("--full", full, "the whole grid, 2 s each (default)")->excludes(quick_flag);
   app.add_option("--integrator", words, "only this one; may be repeated")
       ->type_name("NAME")
       ->check(CLI::IsMember(known));

@@ -76,6 +76,7 @@ void add_edges(const GarmentInput& input, Garment& g) {
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
   g.edge_rest_length.resize(g.edge_count);
   g.edge_rest_curve_length.resize(g.edge_count);
+  g.edges_at.resize(g.particle_count);
 
   double total = 0.0;
   std::uint32_t e = 0;
@@ -85,6 +86,7 @@ void add_edges(const GarmentInput& input, Garment& g) {
       e = s == 0 ? 0 : e + 1;
       const auto [i, j] = side.edge;
       g.edge_particle[0][e] = i, g.edge_particle[1][e] = j;
+      ++g.edges_at[i], ++g.edges_at[j];
       g.edge_face[0][e] = side.face, g.edge_face[1][e] = kNone;
       g.edge_rest_length[e] = length(input.positions[j] - input.positions[i]);
       total += g.edge_rest_length[e];
@@ -135,6 +137,7 @@ Garment::Garment(std::pmr::memory_resource* m)
       added_mass(m),
       pinned(m),
       pins(m),
+      edges_at(m),
       face_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_edge{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_rest_area(m),

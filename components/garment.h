@@ -24,10 +24,11 @@ struct Garment {
   // Particles (P). uv has 2 floats a particle, or is empty.
   Vec3Column rest_position;  // m
   Column<float> uv;
-  Column<float> particle_area;  // m2, a third of the adjacent faces' area; 0 where no face is
-  Column<float> added_mass;     // kg, besides the cloth's own
-  Column<std::uint8_t> pinned;  // 1 where the host moves the particle
-  Column<std::uint32_t> pins;   // pinned particles in the host's order
+  Column<float> particle_area;     // m2, a third of the adjacent faces' area; 0 where no face is
+  Column<float> added_mass;        // kg, besides the cloth's own
+  Column<std::uint8_t> pinned;     // 1 where the host moves the particle
+  Column<std::uint32_t> pins;      // pinned particles in the host's order
+  Column<std::uint32_t> edges_at;  // how many meet there
 
   // Faces (F). Edge k of a face joins its corners k and (k + 1) % 3.
   Column<std::uint32_t> face_particle[3], face_edge[3];

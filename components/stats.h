@@ -12,6 +12,7 @@ struct Stats {
   std::uint64_t contacts_dropped = 0;    // touching places beyond the contact capacity
   std::uint64_t edges_skipped = 0;       // met by the strain limit while shorter than 1e-9 m
   std::uint64_t fast_bodies = 0;         // ticks of a cloth in which a body outran the substeps
+  std::uint64_t stiffness_lowered = 0;   // ticks of a cloth stiffer than its substeps could carry
   std::uint64_t nonfinite_restored = 0;  // particles put back to where they were finite
 };
 

@@ -25,6 +25,7 @@ void print_events(const pleat_stats& stats) {
   } events[] = {{"contacts dropped", stats.contacts_dropped},
                 {"edges skipped", stats.edges_skipped},
                 {"bodies faster than substeps", stats.fast_bodies},
+                {"ticks with stiffness lowered", stats.stiffness_lowered},
                 {"non-finite values put back", stats.nonfinite_restored}};
   for (const auto& [what, count] : events) {
     if (count > 0) std::printf("event         %s: %llu\n", what, static_cast<unsigned long long>(count));

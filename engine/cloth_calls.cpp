@@ -14,7 +14,7 @@ const pleat_cloth_def& default_cloth() {
     pleat_cloth_def d{};
     d.size = sizeof d;
     d.settings = {.size = sizeof(pleat_cloth_settings),
-                  .integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
+                  .integrator = PLEAT_INTEGRATOR_PROJECTED,
                   .substeps = 0,
                   .sweeps = 3,
                   .density = 0.2f,
@@ -42,7 +42,7 @@ const pleat_cloth_def& default_cloth() {
 }
 
 void need_settings(const pleat_cloth_settings& s) {
-  need_range("integrator", s.integrator, 0, PLEAT_INTEGRATOR_RUNGE_KUTTA_4);
+  need_range("integrator", s.integrator, 0, PLEAT_INTEGRATOR_IMPLICIT_EULER);
   need_range("substeps", s.substeps, 0, 64);
   need_range("sweeps", s.sweeps, 1, 64);
   need_range("density", s.density, 1e-6, 1e4);

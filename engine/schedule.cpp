@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "components/tethers.h"
 #include "engine/layers.h"
 #include "engine/schedule_table.h"
+#include "systems/frequency_bound.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
 #include "systems/self_candidates.h"
@@ -19,6 +21,7 @@ namespace pleat {
 namespace {
 
 constexpr std::uint32_t kMostSubsteps = 64;
+constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
 constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
 constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
 constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of cloth that touches cloth
@@ -52,6 +55,9 @@ void make_room(World& world, const ClothRecord& cloth) {
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
     resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
                     world.runge_kutta.velocity_slope);
+  }
+  if (cloth.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER && cloth.source->implicit == nullptr) {
+    cloth.source->implicit = std::make_unique<ImplicitMatrix>(cloth.garment());
   }
   const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
   std::size_t normals = 0, edges = 0;
@@ -164,16 +170,48 @@ std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [
 #endif
 }
 
-std::uint32_t substeps_for(const ClothTick& t, float dt) {
+StableStep stable_step(const ClothTick& t) {
+  const pleat_cloth_settings& s = t.settings;
+  const bool solved = s.integrator == PLEAT_INTEGRATOR_PROJECTED || s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  const bool runge_kutta = s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
+  return {.rates = t.cloth.rates,
+          .scheme = runge_kutta ? Scheme::kRungeKutta4 : Scheme::kEuler,
+          .stiffness = solved ? 0.0f : s.stiffness,
+          .bend_stiffness = s.bend_stiffness,
+          .edge_damping = s.edge_damping,
+          .bend_damping = s.bend_damping,
+          .air_damping = s.air_damping};
+}
+
+void report_lowered(ClothTick& t, std::uint32_t substeps) {
+  ++t.world.stats.stiffness_lowered;
+  if (t.cloth.said_lowered) return;
+  t.cloth.said_lowered = true;
+  t.world.log(PLEAT_LOG_WARNING, "a cloth's stiffness " + std::to_string(t.settings.stiffness) +
+                                     " N/m or bend_stiffness " + std::to_string(t.settings.bend_stiffness) +
+                                     " N m is more than " + std::to_string(substeps) +
+                                     " substeps a tick can carry: its stiffest edges act softer");
+}
+
+std::uint32_t substeps_for(ClothTick& t, float dt) {
   const std::uint32_t least = substeps_against_tunnelling(t, dt);
+  const StableStep stable = stable_step(t);
+  assert(stable.validate());
   std::uint32_t n = t.settings.substeps;
   if (n == 0) {
+    const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+    const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
     // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
-    const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(t.world.def.max_substep) - 1e-3);
+    const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
     n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
     n = std::clamp(least, n, kMostSubsteps);
+    const std::uint32_t most = std::min(kStiffSubsteps * n, kMostSubsteps);
+    n = std::min(stable.run(dt, n, most), most);
   }
   if (n < least) ++t.world.stats.fast_bodies;
+  if (stable.run(dt, n, n) > n) report_lowered(t, n);
+  const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable.room(dt / static_cast<float>(n));
   return n;
 }
 
@@ -281,6 +319,11 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
 
 void refresh(World& world, ClothRecord& cloth) {
   make_room(world, cloth);
+  const FrequencyBound bound{.garment = &cloth.garment(),
+                             .inverse_mass = world.particles.inverse_mass.data() + cloth.particle_begin};
+  assert(bound.validate());
+  cloth.rates = bound.run();
+  cloth.said_lowered = false;
   cloth.plan = plan_of(world, cloth);
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);

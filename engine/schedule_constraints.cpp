@@ -1,5 +1,6 @@
 // Rows from the predicted position to the end of a substep: contact, strain limit, velocities, the guard.
 #include "engine/schedule_row.h"
+#include "systems/elastic_projection.h"
 #include "systems/finite_guard.h"
 #include "systems/stretch_constraint.h"
 #include "systems/tether_constraint.h"
@@ -33,6 +34,20 @@ void respond(ClothTick& t) {
 #endif
 
 constexpr Row kRows[] = {
+    // Before contact is looked for, which then is where the springs leave the cloth.
+    {Phase::kContact, "elastic_projection",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
+              : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
+                                                                  : kNeeded;
+     },
+     [](ClothTick& t) {
+       run(ElasticProjection{.garment = &t.garment,
+                             .inverse_mass = t.inverse_mass,
+                             .stiffness = t.settings.stiffness,
+                             .dt = t.dt,
+                             .position = t.position});
+     }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.
     {Phase::kContact, "self_candidates", with_itself,

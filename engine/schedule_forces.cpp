@@ -7,6 +7,7 @@
 #include "systems/gravity.h"
 #include "systems/gust.h"
 #include "systems/hinge_bending.h"
+#include "systems/implicit_solver.h"
 #include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
@@ -17,7 +18,9 @@
 namespace pleat {
 namespace {
 
-bool runge_kutta(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4; }
+bool euler(const pleat_cloth_settings& s) {
+  return s.integrator != PLEAT_INTEGRATOR_RUNGE_KUTTA_4 && s.integrator != PLEAT_INTEGRATOR_IMPLICIT_EULER;
+}
 
 const char* without_air(const World& w, const ClothRecord& c) {
   const bool slips = c.settings.drag_coefficient == 0.0f && c.settings.lift_coefficient == 0.0f;
@@ -41,13 +44,17 @@ constexpr Row kRows[] = {
      }},
 
     {Phase::kStage, "elastic_force",
-     [](const World&, const ClothRecord& c) { return c.settings.stiffness > 0.0f ? kNeeded : "stiffness is 0"; },
+     [](const World&, const ClothRecord& c) {
+       return c.settings.stiffness == 0.0f                          ? "stiffness is 0"
+              : c.settings.integrator == PLEAT_INTEGRATOR_PROJECTED ? "edges are projected"
+                                                                    : kNeeded;
+     },
      [](ClothTick& t) {
        run(ElasticForce{.garment = &t.garment,
                         .position = t.position,
                         .inverse_mass = t.inverse_mass,
                         .stiffness = t.settings.stiffness,
-                        .dt = t.dt,
+                        .room = t.spring_room,
                         .force = t.force});
      }},
     {Phase::kStage, "hinge_bending",
@@ -152,18 +159,20 @@ constexpr Row kRows[] = {
      }},
 #endif
     {Phase::kStage, "euler_integration",
-     [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? "integrates by Runge-Kutta" : kNeeded; },
+     [](const World&, const ClothRecord& c) { return euler(c.settings) ? kNeeded : "another integrator"; },
      [](ClothTick& t) {
        run(EulerIntegration{.particle_count = t.garment.particle_count,
                             .inverse_mass = t.inverse_mass,
                             .force = t.force,
                             .dt = t.dt,
-                            .symplectic = t.settings.integrator == PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
+                            .symplectic = t.settings.integrator != PLEAT_INTEGRATOR_EXPLICIT_EULER,
                             .position = t.position,
                             .velocity = t.velocity});
      }},
     {Phase::kStage, "runge_kutta_integration",
-     [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? kNeeded : "integrates by Euler"; },
+     [](const World&, const ClothRecord& c) {
+       return c.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? kNeeded : "another integrator";
+     },
      [](ClothTick& t) {
        RungeKuttaColumns& slopes = t.world.runge_kutta;
        run(RungeKuttaIntegration{.particle_count = t.garment.particle_count,
@@ -177,6 +186,20 @@ constexpr Row kRows[] = {
                                  .start_velocity = slopes.start_velocity.view().from(t.cloth.particle_begin),
                                  .position_slope = slopes.position_slope.view().from(t.cloth.particle_begin),
                                  .velocity_slope = slopes.velocity_slope.view().from(t.cloth.particle_begin)});
+     }},
+    {Phase::kStage, "implicit_integration",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER ? kNeeded : "another integrator";
+     },
+     [](ClothTick& t) {
+       run(ImplicitIntegration{.garment = &t.garment,
+                               .matrix = t.cloth.source->implicit.get(),
+                               .inverse_mass = t.inverse_mass,
+                               .force = t.force,
+                               .stiffness = t.settings.stiffness,
+                               .dt = t.dt,
+                               .position = t.position,
+                               .velocity = t.velocity});
      }},
 };
 

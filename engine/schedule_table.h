@@ -19,6 +19,7 @@ struct ClothTick {
 
   float dt = 0.0f;             // s, of the present substep
   float t0 = 0.0f, t1 = 1.0f;  // the present substep's begin and end as fractions of the tick
+  float spring_room = 0.0f;    // 1/s2, the largest omega^2 of springs that the present substep carries
   float frame_dt = 0.0f;       // s, of the tick; 0 when the surface is brought up to date between ticks
   int stage = 0;               // of the integrator
   double time = 0.0;           // s, when the present substep begins

@@ -14,6 +14,7 @@
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/fold_choice.h"
+#include "components/frequency_rates.h"
 #include "components/garment.h"
 #include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
@@ -24,6 +25,7 @@
 #include "engine/memory.h"
 #include "engine/pleat.h"
 #include "engine/registry.h"
+#include "systems/implicit_solver.h"
 
 namespace pleat {
 
@@ -35,7 +37,8 @@ inline constexpr std::uint32_t kLevelCount = PLEAT_LEVEL_MAX + 1;
 struct GarmentRecord {
   Garment garment;
   std::array<std::optional<TessellationPattern>, kLevelCount> patterns;
-  std::uint32_t users = 0;  // cloths cut from it
+  std::unique_ptr<ImplicitMatrix> implicit;  // made for the first cloth that integrates by implicit Euler
+  std::uint32_t users = 0;                   // cloths cut from it
 
   explicit GarmentRecord(Garment&& g) : garment(std::move(g)) {}
 };
@@ -57,6 +60,8 @@ struct ClothRecord {
   std::uint32_t self_pair_count = kNone, layer_pair_count = kNone;  // none were sought yet
   float layers_sought = 0.0f;                                       // for which fraction of the tick the latter were
   Plan plan = 0;
+  FrequencyRates rates;       // of these masses
+  bool said_lowered = false;  // that stiffness is lowered: once for each setting
 
   const Garment& garment() const { return source->garment; }
   /// Null where smoothing is compiled out.

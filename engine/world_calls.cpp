@@ -110,6 +110,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.edges_skipped = world.stats.edges_skipped;
     all.nonfinite_restored = world.stats.nonfinite_restored;
     all.fast_bodies = world.stats.fast_bodies;
+    all.stiffness_lowered = world.stats.stiffness_lowered;
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();

@@ -8,9 +8,8 @@ namespace pleat {
 
 /// Adds the paper's spring force of every edge to both of its ends:
 ///   F_i = k (l - L)/L (x_j - x_i),   F_j = -F_i,   l = |x_j - x_i|
-/// which is eq (1) as a vector; its tangent stiffness at rest is k. Where k is more than a step of dt can carry,
-/// (w_i + w_j) k dt^2 > 0.8, that edge is softened to that bound: symplectic Euler then stays stable up to ten edges a
-/// particle.
+/// which is eq (1) as a vector; its tangent stiffness at rest is k. Where k is more than a step can carry, that edge is
+/// softened to what it can (frequency_bound.h): 2 w (edges at) k <= room at both ends.
 /// Reads:  garment edges; position (P) m; inverse_mass (P) 1/kg
 /// Writes: force (P) N, added to
 /// Cost:   O(E), no allocation. Errors: none; a collapsed edge gives no force.
@@ -19,7 +18,7 @@ struct ElasticForce {
   ConstVec3View position;
   const float* inverse_mass = nullptr;
   float stiffness = 0.0f;  // k, N/m
-  float dt = 0.0f;         // s
+  float room = 0.0f;       // 1/s2, the largest omega^2 that a step is stable with
   Vec3View force;
 
   bool validate() const;

@@ -77,7 +77,7 @@ PLEAT_KERNEL void scatter(const HingeBending& in, std::uint32_t begin, std::uint
 }
 
 PLEAT_KERNEL void bend_all(const HingeBending& in) {
-  const float safe_rate = std::min(in.damping_rate, 0.2f / in.dt), bound = 0.35f / (in.dt * in.dt);
+  const float safe_rate = std::min(in.damping_rate, 0.2f / in.dt), bound = 0.2f / (in.dt * in.dt);
   for (std::uint32_t begin = 0; begin < in.garment->hinge_count; begin += kLanes) {
     const std::uint32_t count = std::min(kLanes, in.garment->hinge_count - begin);
     HingeBlock block;

@@ -10,6 +10,7 @@ pleat_cloth_settings bare_settings(const pleat_api& api) {
   pleat_cloth_def def;
   api.cloth_def_init(&def, sizeof def);
   pleat_cloth_settings& s = def.settings;
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
   s.substeps = s.sweeps = 1;
   s.stiffness = s.bend_stiffness = 0.0f;
   s.edge_damping = s.bend_damping = s.air_damping = s.inner_friction = 0.0f;

@@ -13,7 +13,9 @@ using S = pleat_cloth_settings;
 
 constexpr SettingWord kIntegratorWords[] = {{"symplectic-euler", PLEAT_INTEGRATOR_SYMPLECTIC_EULER},
                                             {"explicit-euler", PLEAT_INTEGRATOR_EXPLICIT_EULER},
-                                            {"runge-kutta-4", PLEAT_INTEGRATOR_RUNGE_KUTTA_4}};
+                                            {"runge-kutta-4", PLEAT_INTEGRATOR_RUNGE_KUTTA_4},
+                                            {"projected", PLEAT_INTEGRATOR_PROJECTED},
+                                            {"implicit-euler", PLEAT_INTEGRATOR_IMPLICIT_EULER}};
 constexpr SettingWord kSurfaceWords[] = {{"flat", PLEAT_SURFACE_FLAT},    {"pn", PLEAT_SURFACE_PN},
                                          {"paper", PLEAT_SURFACE_PAPER},  {"pleat", PLEAT_SURFACE_PLEAT},
                                          {"phong", PLEAT_SURFACE_PHONG},  {"spherigon", PLEAT_SURFACE_SPHERIGON},

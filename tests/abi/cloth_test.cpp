@@ -37,7 +37,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
     expect_refused(PLEAT_ERROR_ARGUMENT, name, [&] { return api().cloth_create(world, &d, &out); });
   };
   using S = pleat_cloth_settings;
-  refused("integrator", &S::integrator, 3u);
+  refused("integrator", &S::integrator, 5u);
   refused("substeps", &S::substeps, 65u);
   refused("sweeps", &S::sweeps, 0u);
   refused("sweeps", &S::sweeps, 65u);

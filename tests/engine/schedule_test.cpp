@@ -33,13 +33,13 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
   for (const char* name :
-       {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
+       {"pin_motion", "elastic_projection", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
         "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
   EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient and lift_coefficient are 0"));
   EXPECT_TRUE(scene.explain("tether_constraint").ends_with("left out: no particle is far from a pin"));
-  EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: integrates by Euler"));
+  EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: another integrator"));
 
   pleat_cloth_settings s = scene.settings(cloth);
   s.stiffness = s.bend_stiffness = s.bend_damping = s.edge_damping = s.air_damping = s.inner_friction = 0.0f;
@@ -47,7 +47,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   s.drag_coefficient = 1.0f;
   s.surface = PLEAT_SURFACE_FLAT;
   must(call::cloth_set(scene, cloth, &s));
-  EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: stiffness is 0"));
+  EXPECT_TRUE(scene.explain("elastic_projection").ends_with("left out: stiffness is 0"));
   EXPECT_TRUE(scene.explain("hinge_bending").ends_with("left out: bend_stiffness is 0"));
   EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
   EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
@@ -66,8 +66,9 @@ TEST(Schedule, TellsHowManyClothsRunASystem) {
   scene.cloth(sheet, s);
   s.stiffness = 0.0f;
   scene.cloth(sheet, s);
-  EXPECT_TRUE(scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
-      << scene.explain("elastic_force");
+  EXPECT_TRUE(
+      scene.explain("elastic_projection").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
+      << scene.explain("elastic_projection");
 }
 
 TEST(Schedule, GravityIsPlannedAnewWhenItChanges) {
@@ -127,7 +128,7 @@ TEST(Schedule, RungeKuttaColumnsExistOnlyWhereAskedFor) {
   must(call::cloth_set(scene, cloth, &s));
   EXPECT_EQ(scene.inside().runge_kutta.start_velocity.size(), padded(16));
   EXPECT_TRUE(runs(scene.explain("runge_kutta_integration")));
-  EXPECT_TRUE(scene.explain("euler_integration").ends_with("left out: integrates by Runge-Kutta"));
+  EXPECT_TRUE(scene.explain("euler_integration").ends_with("left out: another integrator"));
   scene.step();
 }
 
@@ -195,7 +196,7 @@ TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
   seen.names.clear();
   scene.step();
   EXPECT_EQ(seen.depth, 0);
-  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_force"), 2);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_projection"), 2);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "stretch_constraint"), 6);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "air_drag"), 0);
 }
@@ -213,6 +214,36 @@ TEST(Schedule, SubstepsFollowTheLongestInternalStep) {
   EXPECT_EQ(scene.info(cloth).substeps, 1u);
   EXPECT_EQ(scene.stats().substeps, 89u);
   EXPECT_EQ(scene.stats().ticks, 4u);
+}
+
+TEST(Schedule, StiffSpringsGetMoreSubstepsAndSayWhenTheyNeedTooMany) {
+  Scene scene;
+  pleat_cloth_settings s = Scene::default_settings();
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(4), s);
+  scene.step(1, 1.0f / 60);
+  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  s.stiffness = 2000.0f;
+  must(call::cloth_set(scene, cloth, &s));
+  scene.step(1, 1.0f / 60);
+  const std::uint32_t stiff = scene.info(cloth).substeps;
+  EXPECT_GT(stiff, 8u);
+  EXPECT_LT(stiff, 32u);
+  EXPECT_EQ(scene.stats().stiffness_lowered, 0u);
+  s.stiffness = 1e9f;
+  must(call::cloth_set(scene, cloth, &s));
+  scene.step(3, 1.0f / 60);
+  EXPECT_EQ(scene.info(cloth).substeps, 32u);
+  EXPECT_EQ(scene.stats().stiffness_lowered, 3u);
+  s.integrator = PLEAT_INTEGRATOR_PROJECTED;  // stable as it is
+  must(call::cloth_set(scene, cloth, &s));
+  scene.step(1, 1.0f / 60);
+  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  s.integrator = PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  must(call::cloth_set(scene, cloth, &s));
+  scene.step(1, 1.0f / 60);
+  EXPECT_EQ(scene.info(cloth).substeps, 2u);
+  EXPECT_EQ(scene.stats().stiffness_lowered, 3u);
 }
 
 }  // namespace

@@ -157,7 +157,8 @@ TEST(Step, FreeClothFallsByTheDiscreteLaw) {
 
 TEST(Step, ExtremeSettingsStayFinite) {
   for (const std::uint32_t integrator :
-       {PLEAT_INTEGRATOR_SYMPLECTIC_EULER, PLEAT_INTEGRATOR_EXPLICIT_EULER, PLEAT_INTEGRATOR_RUNGE_KUTTA_4}) {
+       {PLEAT_INTEGRATOR_SYMPLECTIC_EULER, PLEAT_INTEGRATOR_EXPLICIT_EULER, PLEAT_INTEGRATOR_RUNGE_KUTTA_4,
+        PLEAT_INTEGRATOR_PROJECTED, PLEAT_INTEGRATOR_IMPLICIT_EULER}) {
     for (const float limit : {0.0f, 1.0f}) {
       Scene scene;
       pleat_cloth_settings s = Scene::default_settings();

@@ -10,9 +10,11 @@
 #include "systems/air_drag.h"
 #include "systems/edge_damping.h"
 #include "systems/elastic_force.h"
+#include "systems/elastic_projection.h"
 #include "systems/finite_guard.h"
 #include "systems/gravity.h"
 #include "systems/hinge_bending.h"
+#include "systems/implicit_solver.h"
 #include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
@@ -64,7 +66,7 @@ void stretch(Sheet& s) {
 
 const Case kCases[] = {
     {"ElasticForce",
-     [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, 30.0f, kDt, s.force}.run(); },
+     [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, 30.0f, 1e6f, s.force}.run(); },
      {"force"}},
     {"HingeBending",
      [](Sheet& s) { HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, s.force}.run(); },
@@ -95,6 +97,17 @@ const Case kCases[] = {
      [](Sheet& s) {
        const Vec3View pins = pin_targets().view();
        PinMotion{&s.garment, pins, pins, 0.0f, 1.0f, kDt, s.position, s.velocity}.run();
+     },
+     {"position", "velocity"}},
+    {"ElasticProjection",
+     [](Sheet& s) {
+       ElasticProjection{&s.garment, s.inverse_mass, 30.0f, kDt, s.position}.run();
+     },
+     {"position"}},
+    {"ImplicitIntegration",
+     [](Sheet& s) {
+       ImplicitMatrix matrix(s.garment);
+       ImplicitIntegration{&s.garment, &matrix, s.inverse_mass, s.force, 30.0f, kDt, s.position, s.velocity}.run();
      },
      {"position", "velocity"}},
     {"StretchConstraint", stretch, {"position"}},

@@ -1,0 +1,91 @@
+#include "systems/elastic_projection.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/elastic_force.h"
+#include "tests/systems/sheet.h"
+
+namespace pleat {
+namespace {
+
+constexpr float kDt = 1.0f / 480;
+
+ElasticProjection job(Sheet& s, float stiffness) {
+  return {
+      .garment = &s.garment, .inverse_mass = s.inverse_mass, .stiffness = stiffness, .dt = kDt, .position = s.position};
+}
+Sheet shaken_sheet() {
+  static constexpr std::uint32_t kPins[] = {0, 4};
+  Sheet sheet(make_grid({.rows = 5, .columns = 5}), kPins);
+  shake(sheet.position, sheet.count, 0.1f, 5);
+  return sheet;
+}
+
+TEST(ElasticProjection, RefusesToRunWithAFieldMissing) {
+  Sheet sheet = shaken_sheet();
+  const ElasticProjection good = job(sheet, 30.0f);
+  ASSERT_TRUE(good.validate());
+  ElasticProjection bad = good;
+  bad.garment = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.inverse_mass = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.position = {};
+  EXPECT_FALSE(bad.validate());
+  for (const float value : {0.0f, -1.0f, kNan}) {
+    bad = good, bad.stiffness = value;
+    EXPECT_FALSE(bad.validate());
+    bad = good, bad.dt = value;
+    EXPECT_FALSE(bad.validate());
+  }
+}
+
+TEST(ElasticProjection, OfSoftEdgesIsTheirForce) {
+  Sheet projected = shaken_sheet(), forced = shaken_sheet();
+  constexpr float kSoft = 0.1f;
+  job(projected, kSoft).run();
+  ElasticForce{&forced.garment, forced.position, forced.inverse_mass, kSoft, 1e30f, forced.force}.run();
+  for (std::uint32_t i = 0; i < forced.count; ++i) {
+    const Vec3 expected = forced.force[i] * (forced.inverse_mass[i] * kDt * kDt);
+    EXPECT_NEAR(length(projected.position[i] - forced.position[i] - expected), 0.0f, 0.02f * length(expected) + 1e-7f);
+  }
+}
+
+TEST(ElasticProjection, OfAStiffEdgeIsItsRestLength) {
+  for (const float stretch : {0.2f, 0.9f, 1.5f, 20.0f}) {
+    Sheet face({{{0, 0, 0}, {2, 0, 0}, {1, 0, -1}}, {{0, 1, 2}}});
+    for (std::uint32_t i = 0; i < 3; ++i) face.position.set(i, face.position[i] * stretch);
+    job(face, 1e12f).run();
+    const std::uint32_t last = face.garment.edge_count - 1;  // nothing moves its ends afterwards
+    const Vec3 d =
+        face.position[face.garment.edge_particle[1][last]] - face.position[face.garment.edge_particle[0][last]];
+    EXPECT_NEAR(length(d), face.garment.edge_rest_length[last], 1e-4f) << stretch;
+  }
+}
+
+TEST(ElasticProjection, HoldsPinsAndSurvivesACollapsedCloth) {
+  Sheet sheet = shaken_sheet();
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, {1, 2, 3});
+  job(sheet, 1e12f).run();
+  for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_EQ(sheet.position[i], (Vec3{1, 2, 3}));
+  sheet = shaken_sheet();
+  const Vec3 pin = sheet.position[4];
+  job(sheet, 100.0f).run();
+  EXPECT_EQ(sheet.position[4], pin);
+}
+
+TEST(ElasticProjectionProperty, KeepsMomentum) {
+  Sheet sheet(make_grid({.rows = 5, .columns = 5}));
+  shake(sheet.position, sheet.count, 0.1f, 6);
+  const auto moment = [&] {
+    Vec3d sum;
+    for (std::uint32_t i = 0; i < sheet.count; ++i) sum += wide(sheet.position[i]) * double(sheet.mass[i]);
+    return sum;
+  };
+  const Vec3d before = moment();
+  job(sheet, 1e4f).run();
+  EXPECT_NEAR(length(moment() - before), 0.0, 1e-7 * 0.2);
+}
+
+}  // namespace
+}  // namespace pleat
