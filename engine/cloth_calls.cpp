@@ -14,7 +14,7 @@ const pleat_cloth_def& default_cloth() {
     pleat_cloth_def d{};
     d.size = sizeof d;
     d.settings = {.size = sizeof(pleat_cloth_settings),
-                  .integrator = PLEAT_INTEGRATOR_PROJECTED,
+                  .integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
                   .substeps = 0,
                   .sweeps = 3,
                   .density = 0.2f,

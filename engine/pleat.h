@@ -165,14 +165,14 @@ typedef struct pleat_garment_info {
 /* How a cloth steps through time. omega: its highest angular frequency, about sqrt(12 stiffness / mass of a particle).
  * Those that are stable only in short steps get more substeps by themselves; see `substeps` of a cloth. */
 enum {
-  /* Order 1, keeps energy, stable to 2/omega. For free swinging of soft cloth. */
+  /* Default. Order 1, keeps energy, stable to 2/omega. For games: soft springs, the strain limit holds the length. */
   PLEAT_INTEGRATOR_SYMPLECTIC_EULER = 0,
   /* The paper, section 5. Order 1, gains energy without damping, which only the strain limit takes: to compare with. */
   PLEAT_INTEGRATOR_EXPLICIT_EULER = 1,
   /* The paper, section 4.1. Order 4 where nothing is in contact, 4 force passes, stable to 2.6/omega: for accuracy. */
   PLEAT_INTEGRATOR_RUNGE_KUTTA_4 = 2,
-  /* Default. Symplectic Euler with each edge solved in turn (Macklin et al., "Small Steps", 2019): order 1, as cheap,
-   * stable at any stiffness, and then softer than asked. For games. */
+  /* Symplectic Euler with each edge solved in turn (Macklin et al., "Small Steps", 2019): order 1, as cheap,
+   * stable at any stiffness, and then softer than asked. For stiff fabric in games. */
   PLEAT_INTEGRATOR_PROJECTED = 3,
   /* All edges solved together (Baraff and Witkin, 1998) in substeps of four times the length: order 1, stable at any
    * stiffness and true to it at rest, damps motion of periods below a few substeps. For stiff fabric without the strain
@@ -199,7 +199,7 @@ enum {
 /* Settings that may change while the cloth lives (cloth_set). Filled by cloth_def_init or cloth_get. */
 typedef struct pleat_cloth_settings {
   uint32_t size;
-  uint32_t integrator;  /* default PLEAT_INTEGRATOR_PROJECTED */
+  uint32_t integrator;  /* default PLEAT_INTEGRATOR_SYMPLECTIC_EULER */
   uint32_t substeps;    /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for, and more when
                            a capsule crosses the cloth fast or, up to four times as many, when springs or bending need
                            shorter steps to be stable; at most 64. Where that is not enough the stiffest edges act

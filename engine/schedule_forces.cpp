@@ -18,9 +18,8 @@
 namespace pleat {
 namespace {
 
-bool euler(const pleat_cloth_settings& s) {
-  return s.integrator != PLEAT_INTEGRATOR_RUNGE_KUTTA_4 && s.integrator != PLEAT_INTEGRATOR_IMPLICIT_EULER;
-}
+bool runge_kutta(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4; }
+bool implicit(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER; }
 
 const char* without_air(const World& w, const ClothRecord& c) {
   const bool slips = c.settings.drag_coefficient == 0.0f && c.settings.lift_coefficient == 0.0f;
@@ -159,7 +158,9 @@ constexpr Row kRows[] = {
      }},
 #endif
     {Phase::kStage, "euler_integration",
-     [](const World&, const ClothRecord& c) { return euler(c.settings) ? kNeeded : "another integrator"; },
+     [](const World&, const ClothRecord& c) {
+       return runge_kutta(c.settings) || implicit(c.settings) ? "another integrator" : kNeeded;
+     },
      [](ClothTick& t) {
        run(EulerIntegration{.particle_count = t.garment.particle_count,
                             .inverse_mass = t.inverse_mass,
@@ -170,9 +171,7 @@ constexpr Row kRows[] = {
                             .velocity = t.velocity});
      }},
     {Phase::kStage, "runge_kutta_integration",
-     [](const World&, const ClothRecord& c) {
-       return c.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? kNeeded : "another integrator";
-     },
+     [](const World&, const ClothRecord& c) { return runge_kutta(c.settings) ? kNeeded : "another integrator"; },
      [](ClothTick& t) {
        RungeKuttaColumns& slopes = t.world.runge_kutta;
        run(RungeKuttaIntegration{.particle_count = t.garment.particle_count,
@@ -188,9 +187,7 @@ constexpr Row kRows[] = {
                                  .velocity_slope = slopes.velocity_slope.view().from(t.cloth.particle_begin)});
      }},
     {Phase::kStage, "implicit_integration",
-     [](const World&, const ClothRecord& c) {
-       return c.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER ? kNeeded : "another integrator";
-     },
+     [](const World&, const ClothRecord& c) { return implicit(c.settings) ? kNeeded : "another integrator"; },
      [](ClothTick& t) {
        run(ImplicitIntegration{.garment = &t.garment,
                                .matrix = t.cloth.source->implicit.get(),

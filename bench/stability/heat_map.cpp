@@ -7,10 +7,14 @@ namespace {
 
 constexpr int kCell = 9, kGap = 14, kLeft = 96, kTop = 64, kTitle = 30;  // pixels
 
-/// Green to yellow to red, dark where nothing is left.
-constexpr const char* kColours[] = {"#2c8f4a", "#e8c531", "#e2792c", "#c02a2a", "#6a2a7a", "#111111"};
-constexpr const char* kLegend[] = {"below 10 %",   "10 to 100 %", "100 to 1000 %",
+/// Green to yellow to red, dark where nothing is left; the first is that of cells that hardly stretch at all.
+constexpr const char* kColours[] = {"#1f6f3a", "#6cbf85", "#e8c531", "#e2792c", "#c02a2a", "#6a2a7a", "#111111"};
+constexpr const char* kLegend[] = {"below 1 %",    "1 to 10 %",   "10 to 100 %", "100 to 1000 %",
                                    "above 1000 %", "thrown away", "not finite"};
+
+const char* colour_of(const CellResult& cell) {
+  return kColours[cell.fate == Fate::kBelow10 && cell.final_strain < 0.01 ? 0 : 1 + size_t(cell.fate)];
+}
 
 template <class... Values>
 void add(std::string& svg, const char* format, Values... values) {
@@ -37,7 +41,7 @@ std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> resu
   const int columns = int(grid.stiffness.size()), rows = int(grid.rate.size());
   const int block_width = columns * kCell + kGap, block_height = rows * kCell + kGap;
   const int band = int(grid.gravity.size()) * block_height + kTitle;
-  const int width = std::max(kLeft + int(grid.mass_ratio.size()) * block_width, 560);
+  const int width = std::max(kLeft + int(grid.mass_ratio.size()) * block_width, 660);
   const int height = kTop + int(grid.integrators.size()) * band + 8;
   std::string svg;
   add(svg,
@@ -50,7 +54,7 @@ std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> resu
   text(svg, 8, 30,
        "tick 1/" + number("%g", grid.rate.front()) + " to 1/" + number("%g", grid.rate.back()) +
            " s downwards. Blocks: hem weight to the right, gravity downwards.");
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 7; ++k) {
     add(svg, "<rect x=\"%d\" y=\"38\" width=\"9\" height=\"9\" fill=\"%s\"/>", 8 + 92 * k, kColours[k]);
     text(svg, 20 + 92 * k, 46, kLegend[k]);
   }
@@ -71,7 +75,7 @@ std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> resu
         text(svg, 8, y - 16, "<tspan font-weight=\"bold\">" + names[size_t(integrator)] + "</tspan>");
     }
     add(svg, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + column * kCell, y + row * kCell,
-        kCell - 1, kCell - 1, kColours[size_t(results[index].fate)]);
+        kCell - 1, kCell - 1, colour_of(results[index]));
   }
   return svg + "</svg>\n";
 }

@@ -33,7 +33,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
   for (const char* name :
-       {"pin_motion", "elastic_projection", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
+       {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
         "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
@@ -47,7 +47,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   s.drag_coefficient = 1.0f;
   s.surface = PLEAT_SURFACE_FLAT;
   must(call::cloth_set(scene, cloth, &s));
-  EXPECT_TRUE(scene.explain("elastic_projection").ends_with("left out: stiffness is 0"));
+  EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: stiffness is 0"));
   EXPECT_TRUE(scene.explain("hinge_bending").ends_with("left out: bend_stiffness is 0"));
   EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
   EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
@@ -67,8 +67,8 @@ TEST(Schedule, TellsHowManyClothsRunASystem) {
   s.stiffness = 0.0f;
   scene.cloth(sheet, s);
   EXPECT_TRUE(
-      scene.explain("elastic_projection").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
-      << scene.explain("elastic_projection");
+      scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
+      << scene.explain("elastic_force");
 }
 
 TEST(Schedule, GravityIsPlannedAnewWhenItChanges) {
@@ -196,7 +196,7 @@ TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
   seen.names.clear();
   scene.step();
   EXPECT_EQ(seen.depth, 0);
-  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_projection"), 2);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_force"), 2);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "stretch_constraint"), 6);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "air_drag"), 0);
 }

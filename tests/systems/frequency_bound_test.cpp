@@ -76,8 +76,8 @@ TEST(FrequencyBound, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE((FrequencyBound{nullptr, sheet.inverse_mass}.validate()));
   EXPECT_FALSE((FrequencyBound{&sheet.garment, nullptr}.validate()));
   EXPECT_TRUE(StableStep{}.validate());
-  EXPECT_FALSE(StableStep{.stiffness = kNan}.validate());
-  EXPECT_FALSE(StableStep{.bend_stiffness = -1.0f}.validate());
+  EXPECT_FALSE((StableStep{.rates = {}, .stiffness = kNan}.validate()));
+  EXPECT_FALSE((StableStep{.rates = {}, .bend_stiffness = -1.0f}.validate()));
 }
 
 TEST(FrequencyBound, OfASingleFaceIsTwiceItsEdgesOverItsMass) {
