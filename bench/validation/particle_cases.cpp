@@ -156,7 +156,7 @@ Checks order(const pleat_api& api) {
   };
   for (const Study& study :
        {Study{kSymplectic, 0.05, 0.05, 1.0}, Study{kExplicit, 0.05, 0.01, 1.0}, Study{kRungeKutta, 0.1, 0.4, 4.0},
-        Study{kProjected, 0.05, 0.05, 1.0}, Study{kImplicit, 0.05, 0.005, 1.0}}) {
+        Study{kProjected, 0.05, 0.01, 1.0}, Study{kImplicit, 0.05, 0.005, 1.0}}) {
     const double time = kPhase / kOmega;
     const int least = int(std::lround(kPhase / study.coarsest));
     const Phase truth = solution(study.amplitude, time);

@@ -109,8 +109,9 @@ TEST(ImplicitIntegrationProperty, CalmsAnyStiffnessInAnyStep) {
         sheet.clear_force();
         add_springs(sheet, stiffness);
         job(sheet, matrix, stiffness, dt).run();
+        // No farther in a step than the sheet is long, where an explicit one of 1e9 N/m would be gone at once.
         for (std::uint32_t k = 0; k < sheet.count; ++k)
-          ASSERT_LT(length(sheet.velocity[k]), 2.0f + 0.2f / dt) << stiffness << ' ' << dt;
+          ASSERT_LT(length(sheet.velocity[k]), 1.0f / dt) << stiffness << ' ' << dt;
       }
     }
   }
