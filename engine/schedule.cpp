@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 
 #include "components/tethers.h"
 #include "engine/layers.h"
+#include "engine/room.h"
 #include "engine/schedule_table.h"
 #include "systems/frequency_bound.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
-#include "systems/self_candidates.h"
 #include "systems/substep_bound.h"
 #endif
 
@@ -22,12 +21,6 @@ namespace {
 
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
-constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
-constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
-constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of cloth that touches cloth
-constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
-constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
-constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
 
 Plan plan_of(const World& world, const ClothRecord& cloth) {
   Plan plan = 0;
@@ -36,83 +29,6 @@ Plan plan_of(const World& world, const ClothRecord& cloth) {
     if (rows[r].left_out(world, cloth) == nullptr) plan |= Plan{1} << r;
   }
   return plan;
-}
-
-/// All columns get the size, or, where memory runs out, none.
-template <class... Columns>
-void resize_together(std::size_t size, Columns&... columns) {
-  (columns.reserve(size), ...);
-  (columns.resize(size), ...);
-}
-
-/// Makes room for columns that only some settings use, and for the scratch of a tick.
-void make_room(World& world, const ClothRecord& cloth) {
-  const std::size_t particles = world.particles.mass.size();
-  const auto at_least = [](auto& column, std::size_t size) {
-    if (column.size() < size) column.resize(size);
-  };
-  if (cloth.settings.inner_friction > 0.0f || world.held.size() != 0) world.held.resize(particles);
-  if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
-    resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
-                    world.runge_kutta.velocity_slope);
-  }
-  if (cloth.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER && cloth.source->implicit == nullptr) {
-    cloth.source->implicit = std::make_unique<ImplicitMatrix>(cloth.garment());
-  }
-  const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
-  std::size_t normals = 0, edges = 0;
-  for (const ClothRecord& other : world.clothes) {
-    normals += padded(other.garment().normal_count);
-    edges += padded(other.garment().edge_count);
-  }
-  if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(normals);
-  const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
-  if (folded || world.surface.fold.size() != 0)
-    resize_together(edges, world.surface.fold, world.surface.fold_height, world.surface.fold_side);
-  if ((cloth.settings.tangents != 0 && cloth.pattern() != nullptr) || world.drawn.tangent.size() != 0) {
-    resize_together(world.drawn.position.size(), world.drawn.tangent, world.drawn.handedness);
-  }
-  const bool relaxed = cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.settings.fold_sweeps > 0;
-  if (curved && relaxed && world.fold_scratch.freedom.size() < cloth.garment().edge_count) {
-    FoldScratch& scratch = world.fold_scratch;
-    resize_together(cloth.garment().edge_count, scratch.middle, scratch.pull, scratch.half_length, scratch.freedom);
-  }
-  const Garment& g = cloth.garment();
-  if (folded && cloth.settings.surface == PLEAT_SURFACE_PLEAT) {
-    at_least(world.fold_choices, g.edge_count);
-    at_least(world.fold_springs, (std::size_t{g.face_count} + kLanes - 1) / kLanes);
-  }
-  const bool touches_itself = cloth.settings.self_distance > 0.0f;
-  if (touches_itself || world.self.pairs.size() != 0) {
-    at_least(world.self.sought_at, particles);
-    at_least(world.self.pairs, SelfColumns::kPairsPerParticle * particles);
-  }
-#ifdef PLEAT_WITH_COLLISION
-  make_layer_room(world, cloth);
-  if (touches_itself || cloth.settings.layer > 1) {
-    at_least(world.contacts, kSelfContactsPerParticle * std::size_t{g.particle_count});
-  }
-  if (touches_itself) {
-    at_least(world.near_scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
-    world.near_scratch.grid.make_room(NearSearch::most_points(g));
-    at_least(world.near_scratch.middle, g.edge_count);
-  }
-#endif
-  if (!world.colliders.empty()) {
-    at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
-    at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
-    at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
-    if (!world.meshes.empty()) {
-      at_least(world.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
-      at_least(world.mesh_candidates.anchor, g.particle_count);
-      at_least(world.mesh_candidates.drift, g.particle_count);
-    }
-    if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
-      if (world.footprint.size() < pattern->vertex_count) world.footprint.resize(pattern->vertex_count);
-      at_least(world.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
-      for (const MeshRecord& body : world.meshes) at_least(world.near_triangles, body.mesh.triangles.size() / 3);
-    }
-  }
 }
 
 void run_phase(ClothTick& t, Phase phase) {

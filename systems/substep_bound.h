@@ -7,8 +7,8 @@ namespace pleat {
 
 /// The number of substeps in which no enabled body near the cloth moves, relative to the cloth, by more than what
 /// contact rows can take back: for a capsule half of radius + thickness, for a mesh as far as features are looked for.
-/// Within that, rows remember the side on which the cloth was. Motion is measured from the mean velocity u of the cloth,
-/// so that a body that carries its cloth along asks for nothing:
+/// Within that, rows remember the side on which the cloth was. Motion is measured from the mean velocity u of the
+/// cloth, so that a body that carries its cloth along asks for nothing:
 ///   n = ceil((max |x1 - x0 - u dt| + max |v_i - u| dt) / ((r + thickness) / 2))     or thickness + kLeastMargin
 /// Reads:  position (P) m; velocity (P) m/s; capsules and meshes between their poses of this tick
 /// Cost:   O(P + capsules + vertices of meshes near the cloth), no allocation. Errors: none; motion beyond all bounds

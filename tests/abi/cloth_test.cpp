@@ -46,6 +46,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
   refused("level", &S::level, PLEAT_LEVEL_MAX + 1);
   refused("fold_sweeps", &S::fold_sweeps, 65u);
   refused("tangents", &S::tangents, 2u);
+  refused("layer", &S::layer, 16u);
   const std::pair<const char*, float S::*> floats[] = {{"density", &S::density},
                                                        {"stiffness", &S::stiffness},
                                                        {"stretch_limit", &S::stretch_limit},

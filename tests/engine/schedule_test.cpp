@@ -66,8 +66,7 @@ TEST(Schedule, TellsHowManyClothsRunASystem) {
   scene.cloth(sheet, s);
   s.stiffness = 0.0f;
   scene.cloth(sheet, s);
-  EXPECT_TRUE(
-      scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
+  EXPECT_TRUE(scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
       << scene.explain("elastic_force");
 }
 
