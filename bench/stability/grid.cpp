@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/stability/edges.h"
 #include "bench/validation/rig.h"
 
 namespace pleat::bench {
@@ -19,26 +20,6 @@ std::vector<float> hem_weights(const demo::TriangleMesh& mesh, double added) {
     if (mesh.positions[3 * i + 2] == mesh.positions.back()) mass[i] = float(added);
   }
   return mass;
-}
-
-double distance(const std::vector<float>& x, size_t i, size_t j) {
-  double sum = 0.0;
-  for (size_t k = 0; k < 3; ++k) sum += std::pow(double(x[3 * i + k]) - double(x[3 * j + k]), 2);
-  return std::sqrt(sum);
-}
-
-/// Largest elongation of a side of a triangle, fraction.
-double largest_strain(const demo::TriangleMesh& rest, const Rig& rig) {
-  double largest = -1.0;
-  for (size_t t = 0; t < rest.triangles.size(); t += 3) {
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t i = rest.triangles[t + k], j = rest.triangles[t + (k + 1) % 3];
-      const Point a = rig.position(i), b = rig.position(j);
-      const double l = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-      largest = std::max(largest, l / distance(rest.positions, i, j) - 1.0);
-    }
-  }
-  return largest;
 }
 
 /// Of the particle farthest from the origin, m; infinite where one is not finite.
@@ -119,7 +100,7 @@ CellResult run_cell(const pleat_api& api, const demo::SceneDef& scene, const Cel
     if (!std::isfinite(far)) return {Fate::kNonfinite};
     if (far > kFarAway) return {Fate::kFarAway};
   }
-  const double strain = largest_strain(scene.garment, rig);
+  const double strain = Edges(api, rig).largest_strain(rig);
   return {fate_of(strain), strain};
 }
 

@@ -47,12 +47,11 @@ void Rig::create(const RigDef& def) {
   garment_def.pins = def.pins.data();
   garment_def.pin_count = uint32_t(def.pins.size());
   garment_def.added_mass = def.added_mass.empty() ? nullptr : def.added_mass.data();
-  pleat_garment garment{};
-  need(api_.garment_create(world_, &garment_def, nullptr, &garment), "garment");
+  need(api_.garment_create(world_, &garment_def, &report_, &garment_), "garment");
 
   pleat_cloth_def cloth_def;
   need(api_.cloth_def_init(&cloth_def, sizeof cloth_def), "cloth");
-  cloth_def.garment = garment;
+  cloth_def.garment = garment_;
   cloth_def.settings = def.settings;
   need(api_.cloth_create(world_, &cloth_def, &cloth_), "cloth");
   state_.resize(6 * def.mesh.vertex_count());

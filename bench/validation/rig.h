@@ -41,8 +41,15 @@ class Rig {
   Point position(uint32_t particle) const { return point(particle); }
   Point velocity(uint32_t particle) const { return point(count() + particle); }
 
- private:
+  pleat_world* world() const { return world_; }
+  pleat_garment garment() const { return garment_; }
+  pleat_cloth cloth() const { return cloth_; }
+  const pleat_mesh_report& report() const { return report_; }
+  /// The library's last line; empty where it had nothing to say.
+  const std::string& complaint() const { return complaint_; }
   void need(pleat_result result, const char* what) const;
+
+ private:
   void create(const RigDef& def);
   void read();
   static void keep_log(uint32_t level, const char* line, void* user);
@@ -50,7 +57,9 @@ class Rig {
 
   const pleat_api& api_;
   pleat_world* world_ = nullptr;
+  pleat_garment garment_{};
   pleat_cloth cloth_{};
+  pleat_mesh_report report_{};
   std::vector<float> state_;  // positions, then velocities
   std::string complaint_;     // the engine's last line
 };
