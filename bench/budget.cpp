@@ -189,7 +189,7 @@ std::string stage_group(const std::string& system) {
       {"surface_footprint", "clearance"}, {"surface_capsules", "clearance"},
       {"surface_clearance", "clearance"}, {"particle_normals", "normals"},
       {"mesh_candidates", "collision"},   {"mesh_clearance", "clearance"},
-      {"fold_sides", "edge_length"}};
+      {"fold_sides", "edge_length"},      {"stretch_after_friction", "stretch"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

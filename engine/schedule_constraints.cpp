@@ -23,7 +23,24 @@
 namespace pleat {
 namespace {
 
+void limit_stretch(ClothTick& t) {
+  run(StretchConstraint{.garment = &t.garment,
+                        .inverse_mass = t.inverse_mass,
+                        .limit = t.settings.stretch_limit,
+                        .position = t.position},
+      t.world.stats);
+}
+
+const char* with_stretch_limit(const World&, const ClothRecord& c) {
+  return c.settings.stretch_limit < 1.0f ? kNeeded : "stretch_limit is 1 or more";
+}
+
 #ifdef PLEAT_WITH_COLLISION
+const char* with_stretch_limit_and_colliders(const World& w, const ClothRecord& c) {
+  const char* why = with_colliders(w, c);
+  return why != kNeeded ? why : with_stretch_limit(w, c);
+}
+
 void respond(ClothTick& t) {
   run(CollisionResponse{.contacts = contacts_of(t),
                         .inverse_mass = t.inverse_mass,
@@ -179,17 +196,7 @@ constexpr Row kRows[] = {
      }},
 #endif
 
-    {Phase::kSweep, "stretch_constraint",
-     [](const World&, const ClothRecord& c) {
-       return c.settings.stretch_limit < 1.0f ? kNeeded : "stretch_limit is 1 or more";
-     },
-     [](ClothTick& t) {
-       run(StretchConstraint{.garment = &t.garment,
-                             .inverse_mass = t.inverse_mass,
-                             .limit = t.settings.stretch_limit,
-                             .position = t.position},
-           t.world.stats);
-     }},
+    {Phase::kSweep, "stretch_constraint", with_stretch_limit, limit_stretch},
     {Phase::kSweep, "tether_constraint",
      [](const World&, const ClothRecord& c) {
        return c.settings.stretch_limit >= 1.0f        ? "stretch_limit is 1 or more"
@@ -207,6 +214,9 @@ constexpr Row kRows[] = {
        run(ContactFriction{
            .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position});
      }},
+    // Rows of bodies that pinch the cloth push against each other in every sweep; friction takes the sum for pressure
+    // and undoes what the strain limit has pulled. So the limit comes once more, and contact still has the last word.
+    {Phase::kSubstepEnd, "stretch_after_friction", with_stretch_limit_and_colliders, limit_stretch},
     {Phase::kSubstepEnd, "collision_last_word", with_contacts, respond},
 #endif
 
