@@ -33,7 +33,8 @@ void run_baseline(const Kernel& kernel) {
 }
 }  // namespace compiled
 
-/// Calls kernel(), compiled for `set`, which the processor must have. What it calls has to be PLEAT_KERNEL or inline.
+/// Calls kernel(), compiled for `set`, which the processor must have. What it calls has to be defined in the same file
+/// or inline: it is compiled in.
 template <class Kernel>
 void run_wide(VectorSet set, const Kernel& kernel) {
   set == VectorSet::kAvx2 ? compiled::run_avx2(kernel) : compiled::run_baseline(kernel);

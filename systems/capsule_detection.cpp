@@ -128,9 +128,9 @@ struct CapsuleTest {
       const Vec3 area = cross(u, v);
       const float area2 = dot(area, area);
       if (!(area2 > 1e-16f)) continue;
-      for (const float t : {0.0f, 1.0f}) {
-        if (is_sphere && t > 0.0f) break;
-        const Vec3 w = ends[t == 0.0f ? 0 : 1] - xi;
+      for (int end = 0; end < (is_sphere ? 1 : 2); ++end) {
+        const float t = static_cast<float>(end);
+        const Vec3 w = ends[end] - xi;
         const float height = dot(w, area);
         if (height * height > reach * reach * area2) continue;
         const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
