@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 
+#include "bench/metrics/size_error.h"
 #include "demo/quality/solid_mesh.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
@@ -70,16 +71,6 @@ double rms_distance(std::span<const float> points, std::span<const float> positi
     sum += distance * distance;
   }
   return std::sqrt(sum / double(points.size() / 3));
-}
-
-double mesh_area(std::span<const float> positions, std::span<const uint32_t> triangles) {
-  double area = 0.0;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const demo::Vector3d a = point(positions, triangles[t]), b = point(positions, triangles[t + 1]),
-                         c = point(positions, triangles[t + 2]);
-    area += 0.5 * (b - a).cross(c - a).norm();
-  }
-  return area;
 }
 
 std::vector<SurfaceVerdict> judge(const pleat_api& api, const SurfaceTruth& truth, uint32_t n,

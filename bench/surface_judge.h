@@ -13,9 +13,6 @@ namespace pleat::bench {
 double rms_distance(std::span<const float> points, std::span<const float> positions,
                     std::span<const uint32_t> triangles);
 
-/// Area of a triangle mesh, m2.
-double mesh_area(std::span<const float> positions, std::span<const uint32_t> triangles);
-
 struct SurfaceVerdict {
   double rms_mm;              ///< from the truth's points to the drawn surface
   double area_error_percent;  ///< of the drawn surface, against the truth's triangles

@@ -75,15 +75,18 @@ void SolidMesh::search(size_t node, size_t first, size_t last, const Vector3d& p
     const double facing = away.dot(normal);
     // Of equally near triangles the one that faces p most squarely knows the side.
     const bool tie = d2 >= nearest.squared_distance * (1.0 - 1e-9);
-    if (!tie || std::abs(facing) > std::abs(nearest.facing)) nearest.facing = facing;
+    if (!tie || std::abs(facing) > std::abs(nearest.facing)) {
+      nearest.facing = facing;
+      nearest.normal = normal;
+    }
     nearest.squared_distance = std::min(nearest.squared_distance, d2);
   }
 }
 
-double SolidMesh::signed_distance(const Vector3d& p) const {
-  Nearest nearest{std::numeric_limits<double>::max(), 0.0};
+SolidMesh::Place SolidMesh::nearest(const Vector3d& p) const {
+  Nearest nearest{std::numeric_limits<double>::max(), 0.0, Vector3d::Zero()};
   search(0, 0, triangles_.size(), p, nearest);
-  return std::copysign(std::sqrt(nearest.squared_distance), nearest.facing);
+  return {std::copysign(std::sqrt(nearest.squared_distance), nearest.facing), nearest.normal};
 }
 
 }  // namespace pleat::demo

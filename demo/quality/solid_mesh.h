@@ -15,8 +15,14 @@ class SolidMesh {
   /// positions: (V,3) m; triangles: (T,3) indices, T >= 1.
   SolidMesh(std::span<const float> positions, std::span<const uint32_t> triangles);
 
+  /// The surface as seen from a point.
+  struct Place {
+    double distance;  ///< m; negative inside
+    Vector3d normal;  ///< of the nearest triangle, unit length
+  };
+  Place nearest(const Vector3d& p) const;
   /// Distance from p to the surface, m; negative inside.
-  double signed_distance(const Vector3d& p) const;
+  double signed_distance(const Vector3d& p) const { return nearest(p).distance; }
 
  private:
   struct Box {
@@ -25,6 +31,7 @@ class SolidMesh {
   };
   struct Nearest {
     double squared_distance, facing;
+    Vector3d normal;
   };
   void build(size_t node, size_t first, size_t last);
   void search(size_t node, size_t first, size_t last, const Vector3d& p, Nearest& nearest) const;

@@ -31,11 +31,6 @@ TEST(SurfaceJudge, DistanceOfAMovedPlane) {
   EXPECT_NEAR(rms_distance(points, sheet.positions, sheet.triangles), 0.02 / std::sqrt(2.0), 1e-5);
 }
 
-TEST(SurfaceJudge, AreaOfASquare) {
-  const demo::TriangleMesh sheet = flat_square(api(), 9);
-  EXPECT_NEAR(mesh_area(sheet.positions, sheet.triangles), 1.0, 1e-6);
-}
-
 TEST(SurfaceJudge, SamplesTheCoarseParticles) {
   EXPECT_EQ(every(flat_square(api(), 65).positions, 65, 8), flat_square(api(), 9).positions);
   EXPECT_EQ(every(flat_square(api(), 5).positions, 5, 4), flat_square(api(), 2).positions);
