@@ -94,7 +94,13 @@ void make_body_contact_room(World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   at_least(world.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
   at_least(world.contacts, kContactsPerParticle * std::size_t{g.particle_count});
-  at_least(world.detection_scratch, std::size_t{g.particle_count} + g.edge_count);
+  CapsuleCandidateColumns& candidates = world.capsule_candidates;
+  at_least(candidates.near, FeatureWords(g).end * world.capsule_poses.size());
+  at_least(candidates.sought, world.capsule_poses.size());
+  at_least(candidates.anchor, g.particle_count);
+  CapsuleScratch& scratch = world.capsule_scratch;
+  at_least(scratch.core, g.particle_count);
+  at_least(scratch.ends, g.particle_count), at_least(scratch.edge, g.edge_count);
   if (!world.meshes.empty()) {
     at_least(world.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
     at_least(world.mesh_candidates.anchor, g.particle_count);

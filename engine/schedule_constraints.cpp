@@ -6,6 +6,7 @@
 #include "systems/tether_constraint.h"
 #include "systems/velocity_update.h"
 #ifdef PLEAT_WITH_COLLISION
+#include "systems/capsule_candidates.h"
 #include "systems/capsule_detection.h"
 #include "systems/collision_bodies.h"
 #include "systems/collision_response.h"
@@ -127,6 +128,19 @@ constexpr Row kRows[] = {
      [](ClothTick& t) {
        move_capsules(t, t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count));
      }},
+    {Phase::kContact, "capsule_candidates", with_capsules,
+     [](ClothTick& t) {
+       World& w = t.world;
+       run(CapsuleCandidates{.garment = &t.garment,
+                             .position = t.position,
+                             .previous = t.previous,
+                             .capsules = w.capsule_poses.data(),
+                             .capsule_count = w.capsule_pose_count,
+                             .thickness = t.settings.thickness,
+                             .first = t.t0 == 0.0f,
+                             .candidates = &w.capsule_candidates,
+                             .scratch = &w.capsule_scratch});
+     }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {
        World& w = t.world;
@@ -139,7 +153,8 @@ constexpr Row kRows[] = {
                             .thickness = t.settings.thickness,
                             .friction = t.settings.friction,
                             .dt = t.dt,
-                            .scratch = w.detection_scratch.data(),
+                            .scratch = &w.capsule_scratch,
+                            .candidates = &w.capsule_candidates,
                             .contacts = contacts_of(t)},
            w.stats);
      }},

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "components/capsule_candidates.h"
 #include "components/clearance_plane.h"
 #include "components/colliders.h"
 #include "components/contacts.h"
@@ -127,8 +128,9 @@ struct World {
   // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until something needs it.
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
+  CapsuleCandidateColumns capsule_candidates;
+  CapsuleScratch capsule_scratch;
   MeshCandidateColumns mesh_candidates;
-  Column<float> detection_scratch;
   mutable NearScratch near_scratch;  // empty unless cloth touches cloth
   Column<FoldChoice> fold_choices;   // empty unless a cloth folds
   Column<FoldSprings> fold_springs;

@@ -20,11 +20,13 @@ struct CapsuleTest {
   const CapsulePose& capsule;
   ContactRowMaker rows;
   float margin;
-  float reach = widest_radius(capsule) + in.thickness + margin;    // from the core
-  float* distance2 = in.scratch;                                   // (P) squared, from the core
-  const float* length2 = in.scratch + in.garment->particle_count;  // (E) squared
+  const std::uint64_t* near;
+  FeatureWords words = FeatureWords(*in.garment);
+  float reach = widest_radius(capsule) + in.thickness + margin;  // from the core
+  float* distance2 = in.scratch->core.data();                    // (P) squared, from the core
 
   void run(Stats& stats) const {
+    if (std::all_of(near, near + words.end, [](std::uint64_t word) { return word == 0; })) return;
     run_wide(widest_vectors(), [this] { measure_particles(); });
     test_particles(stats);
     test_edges(stats);
@@ -81,53 +83,40 @@ struct CapsuleTest {
   }
 
   void test_particles(Stats& stats) const {
-    for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
-      if (!(distance2[i] < reach * reach) || in.inverse_mass[i] == 0.0f) continue;
+    for_each_bit(near + words.particles, near + words.edges, [&](std::uint32_t i) {
+      if (!(distance2[i] < reach * reach) || in.inverse_mass[i] == 0.0f) return;
       const Vec3 p = in.position[i];
       const float t = closest_on_capsule(p, capsule);
       add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, p - core(t), in.previous[i] - core_before(t), true, stats);
-    }
-  }
-
-  /// No point of an edge of squared length l2, whose ends are at squared distances a2 and b2 from a convex core, is
-  /// nearer to it than to a point at the same distances from both ends: the height of that triangle.
-  static bool edge_is_beyond(float a2, float b2, float l2, float reach2) {
-    if (std::min(a2, b2) < reach2) return false;
-    const float x = a2 - b2 + l2;
-    return x <= 0.0f || x >= 2.0f * l2 || 4.0f * l2 * (a2 - reach2) > x * x;
+    });
   }
 
   void test_edges(Stats& stats) const {
-    const std::uint32_t* first = in.garment->edge_particle[0].data();
-    const std::uint32_t* second = in.garment->edge_particle[1].data();
-    for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
-      const std::uint32_t i = first[e], j = second[e];
-      if (edge_is_beyond(distance2[i], distance2[j], length2[e], reach * reach)) continue;
-      const Vec3 xi = in.position[i], xj = in.position[j];
+    const auto& end = in.garment->edge_particle;
+    for_each_bit(near + words.edges, near + words.faces, [&](std::uint32_t e) {
+      const std::uint32_t i = end[0][e], j = end[1][e];
+      const Vec3 xi = in.position[i], xj = in.position[j], along = xj - xi;
+      if (segment_is_beyond(distance2[i], distance2[j], dot(along, along), reach * reach)) return;
       const SegmentPair at = closest_to_capsule(xi, xj, capsule);
-      if (at.s < kEndShare || at.s > 1.0f - kEndShare) continue;
+      if (at.s < kEndShare || at.s > 1.0f - kEndShare) return;
       const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
-      if (!(dot(away, away) < reach * reach)) continue;
+      if (!(dot(away, away) < reach * reach)) return;
       const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
       add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats);
-    }
+    });
   }
 
+  /// Where an end of the core is over the inside of a face; all other places that are closest belong to its edges.
   void test_faces(Stats& stats) const {
     const auto& corner = in.garment->face_particle;
-    const auto& edge = in.garment->face_edge;
     const Vec3 ends[2] = {core(0.0f), core(1.0f)};
     const bool is_sphere = capsule.a == capsule.b;
-    for (std::uint32_t f = 0; f < in.garment->face_count; ++f) {
+    for_each_bit(near + words.faces, near + words.end, [&](std::uint32_t f) {
       const std::uint32_t i = corner[0][f], j = corner[1][f], k = corner[2][f];
-      // A point of the face is within a third of the longest squared edge of a corner (method.md F, theorem 1).
-      const float nearest2 = std::min({distance2[i], distance2[j], distance2[k]});
-      const float longest2 = std::max({length2[edge[0][f]], length2[edge[1][f]], length2[edge[2][f]]});
-      if (nearest2 > reach * reach + longest2 * (1.0f / 3.0f)) continue;
       const Vec3 xi = in.position[i], u = in.position[j] - xi, v = in.position[k] - xi;
       const Vec3 area = cross(u, v);
       const float area2 = dot(area, area);
-      if (!(area2 > 1e-16f)) continue;
+      if (!(area2 > 1e-16f)) return;
       for (int end = 0; end < (is_sphere ? 1 : 2); ++end) {
         const float t = static_cast<float>(end);
         const Vec3 w = ends[end] - xi;
@@ -143,34 +132,26 @@ struct CapsuleTest {
         const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
         rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
       }
-    }
+    });
   }
 };
-
-/// Squared lengths, into scratch.
-void measure_edges(const CapsuleDetection& in) {
-  float* length2 = in.scratch + in.garment->particle_count;
-  const auto& end = in.garment->edge_particle;
-  for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
-    const Vec3 d = in.position[end[1][e]] - in.position[end[0][e]];
-    length2[e] = dot(d, d);
-  }
-}
 
 }  // namespace
 
 bool CapsuleDetection::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
-         (capsules != nullptr || capsule_count == 0) && scratch != nullptr && contacts.count != nullptr &&
-         thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
+         (capsules != nullptr || capsule_count == 0) && scratch != nullptr && scratch->holds(*garment) &&
+         candidates != nullptr && candidates->near.size() >= FeatureWords(*garment).end * capsule_count &&
+         contacts.count != nullptr && thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
 }
 
 void CapsuleDetection::run(Stats& stats) const {
-  if (capsule_count == 0) return;
-  run_wide(widest_vectors(), [this] { measure_edges(*this); });
   const float margin = contact_margin(position, previous, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
-  for (std::uint32_t c = 0; c < capsule_count; ++c) CapsuleTest{*this, capsules[c], rows, margin}.run(stats);
+  const std::uint64_t* near = candidates->near.data();
+  for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
+    CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
+  }
 }
 
 }  // namespace pleat

@@ -5,22 +5,21 @@
 //   makes a row.
 #pragma once
 
-#include "components/colliders.h"
+#include "components/capsule_candidates.h"
 #include "components/contacts.h"
-#include "components/garment.h"
 #include "components/stats.h"
 
 namespace pleat {
 
-/// Adds a row for each feature of the cloth nearer than radius + thickness + contact_margin to a capsule's core, at the
+/// Adds a row for each candidate nearer than radius + thickness + contact_margin to a capsule's core, at the
 /// end of the substep. The normal points to the side on which the feature was when the substep began, so that what has
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
-/// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules
-/// Writes: scratch (P + E); contacts, added to; stats.contacts_dropped
-/// Cost:   O((P + E + F + rows) capsules), no allocation.
-/// Errors: none; features without extent make finite rows or none.
+/// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules; candidates, of these
+/// capsules Writes: scratch; contacts, added to; stats.contacts_dropped Cost:   O((P + candidates) capsules), no
+/// allocation; nothing for a capsule without candidates. Errors: none; features without extent make finite rows or
+/// none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
@@ -30,8 +29,9 @@ struct CapsuleDetection {
   std::uint32_t capsule_count = 0;
   float thickness = 0.0f;  // m
   float friction = 0.0f;
-  float dt = 0.0f;           // s, of the substep
-  float* scratch = nullptr;  // particle_count + edge_count floats
+  float dt = 0.0f;  // s, of the substep
+  CapsuleScratch* scratch = nullptr;
+  const CapsuleCandidateColumns* candidates = nullptr;
   ContactList contacts;
 
   bool validate() const;

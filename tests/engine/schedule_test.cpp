@@ -89,15 +89,15 @@ TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
   Scene scene;
   scene.cloth(scene.sheet(8));
   scene.step(3);
-  for (const char* name :
-       {"contact_acceleration", "collider_motion", "capsule_detection", "mesh_detection", "collision_response",
-        "contact_friction", "stretch_after_friction", "collision_last_word", "contact_velocity"}) {
+  for (const char* name : {"contact_acceleration", "collider_motion", "capsule_candidates", "capsule_detection",
+                           "mesh_detection", "collision_response", "contact_friction", "stretch_after_friction",
+                           "collision_last_word", "contact_velocity"}) {
     EXPECT_TRUE(scene.explain(name).ends_with("left out: no collider")) << scene.explain(name);
   }
   World& world = scene.inside();
   EXPECT_EQ(world.contacts.size(), 0u);
   EXPECT_EQ(world.capsule_poses.size(), 0u);
-  EXPECT_EQ(world.detection_scratch.size(), 0u);
+  EXPECT_EQ(world.capsule_scratch.core.size(), 0u);
   EXPECT_EQ(world.bodies, nullptr);
 }
 

@@ -13,8 +13,11 @@ namespace {
 
 constexpr float kThickness = 0.005f, kDt = 0.002f;
 
+/// With every feature a candidate.
 CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& capsules) {
   cloth.row_count = 0;
+  cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
+  mark_all(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
   return {&cloth.garment,
           cloth.position.view(),
           cloth.previous.view(),
@@ -24,7 +27,8 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
           kThickness,
           0.5f,
           kDt,
-          cloth.scratch.data(),
+          &cloth.scratch,
+          &cloth.candidates,
           cloth.contacts()};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/capsule_candidates.h"
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/garment.h"
@@ -19,7 +20,8 @@ struct ContactCloth {
   Garment garment;
   Vec3Column position{memory()}, previous{memory()}, velocity{memory()}, predicted{memory()}, force{memory()};
   Column<float> inverse_mass{memory()};
-  std::vector<float> scratch;
+  CapsuleCandidateColumns candidates{memory()};
+  CapsuleScratch scratch{memory()};
   std::vector<ContactRow> rows = std::vector<ContactRow>(4096);
   std::uint32_t row_count = 0;
 
@@ -28,7 +30,9 @@ struct ContactCloth {
       : garment(build_garment({positions, triangles, {}, pins, {}}, memory())) {
     for (Vec3Column* c : {&position, &previous, &velocity, &predicted, &force}) c->resize(positions.size());
     inverse_mass.resize(positions.size());
-    scratch.resize(garment.particle_count + garment.edge_count);
+    candidates.anchor.resize(positions.size());
+    scratch.core.resize(positions.size()), scratch.ends.resize(positions.size());
+    scratch.edge.resize(garment.edge_count);
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
       put(i, positions[i], positions[i]);
       inverse_mass[i] = garment.pinned[i] != 0 ? 0.0f : 1000.0f;
@@ -41,6 +45,18 @@ struct ContactCloth {
   Vec3 x(std::uint32_t i) const { return position.view()[i]; }
   ContactList contacts() { return {rows.data(), static_cast<std::uint32_t>(rows.size()), &row_count}; }
 };
+
+/// Makes every feature of a cloth a candidate for every capsule.
+inline void mark_all(const Garment& g, std::uint32_t capsules, CapsuleCandidateColumns& candidates) {
+  const FeatureWords words(g);
+  std::uint64_t* near = candidates.near.data();
+  std::fill(near, near + words.end * capsules, 0);
+  for (std::uint32_t c = 0; c < capsules; ++c, near += words.end) {
+    for (std::uint32_t i = 0; i < g.particle_count; ++i) near[words.particles + i / 64] |= std::uint64_t{1} << i % 64;
+    for (std::uint32_t e = 0; e < g.edge_count; ++e) near[words.edges + e / 64] |= std::uint64_t{1} << e % 64;
+    for (std::uint32_t f = 0; f < g.face_count; ++f) near[words.faces + f / 64] |= std::uint64_t{1} << f % 64;
+  }
+}
 
 /// A mesh that stands still at `positions`.
 inline MeshCollider make_body(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {

@@ -1,0 +1,175 @@
+#include "systems/capsule_candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "components/shapes.h"
+#include "systems/capsule_detection.h"
+#include "systems/closest_points.h"
+#include "tests/systems/contact_scene.h"
+
+namespace pleat::test {
+namespace {
+
+constexpr float kThickness = 0.005f, kDt = 0.002f;
+
+/// A skirt around two legs that swing, in substeps; cloth and legs travel together.
+struct Walk {
+  Mesh mesh =
+      make_rings(std::vector<Ring>{{11, 0.15f, 0.0f}, {11, 0.2f, -0.12f}, {11, 0.24f, -0.24f}, {11, 0.3f, -0.4f}});
+  ContactCloth cloth{mesh.positions, mesh.triangles};
+  std::vector<CapsulePose> capsules;
+  std::vector<std::uint64_t> all;
+  Vec3 velocity{0, 0, 0};  // of everything, m/s
+  float swing = 0.0f;      // of the legs' ends, m/s
+  float tremble = 0.0f;    // of each particle, m a substep
+  int steps = 0;
+  std::mt19937 random{3};
+
+  Walk() {
+    for (const float x : {-0.09f, 0.09f, 3.0f}) {
+      capsules.push_back({.a = {x, 0, 0}, .b = {x, -0.42f, 0}, .step_a = {}, .step_b = {}, .radius = 0.08f});
+      capsules.back().index = static_cast<std::uint32_t>(capsules.size());
+    }
+    capsules[1].taper = -0.03f;
+    cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
+    cloth.candidates.sought.resize(capsules.size());
+  }
+  void step() {
+    std::uniform_real_distribution<float> any(-tremble, tremble);
+    const Vec3 carried = velocity * kDt;
+    for (std::uint32_t i = 0; i < cloth.garment.particle_count; ++i) {
+      const Vec3 x = cloth.x(i);
+      cloth.put(i, x + carried + Vec3{any(random), any(random), any(random)}, x);
+    }
+    for (CapsulePose& c : capsules) {
+      c.step_a = carried, c.step_b = carried + Vec3{0, 0, (c.a.x < 0.0f ? swing : -swing) * kDt};
+      c.a += c.step_a, c.b += c.step_b;
+    }
+    ++steps;
+  }
+  CapsuleCandidates candidates() {
+    return {&cloth.garment,
+            cloth.position.view(),
+            cloth.previous.view(),
+            capsules.data(),
+            static_cast<std::uint32_t>(capsules.size()),
+            kThickness,
+            steps == 1,
+            &cloth.candidates,
+            &cloth.scratch};
+  }
+  std::vector<ContactRow> rows() {
+    cloth.row_count = 0;
+    Stats stats;
+    CapsuleDetection{&cloth.garment,
+                     cloth.position.view(),
+                     cloth.previous.view(),
+                     cloth.inverse_mass.data(),
+                     capsules.data(),
+                     static_cast<std::uint32_t>(capsules.size()),
+                     kThickness,
+                     0.5f,
+                     kDt,
+                     &cloth.scratch,
+                     &cloth.candidates,
+                     cloth.contacts()}
+        .run(stats);
+    return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};
+  }
+  bool same_as_without() {
+    const std::vector<ContactRow> found = rows();
+    const std::vector<std::uint64_t> kept(cloth.candidates.near.begin(), cloth.candidates.near.end());
+    mark_all(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
+    const std::vector<ContactRow> all_rows = rows();
+    std::copy(kept.begin(), kept.end(), cloth.candidates.near.begin());
+    row_count += all_rows.size();
+    return found.size() == all_rows.size() &&
+           std::memcmp(found.data(), all_rows.data(), found.size() * sizeof(ContactRow)) == 0;
+  }
+  bool was_just_made() const { return cloth.candidates.anchor.view()[0] == cloth.x(0); }
+  std::size_t row_count = 0;
+};
+
+TEST(CapsuleCandidates, RowsAreTheSameAsWithoutThemWhateverMoves) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  int made = 0, kept = 0;
+  std::size_t rows = 0;
+  for (int n = 0; n < 40; ++n) {
+    Walk walk;
+    walk.velocity = Vec3{any(random), any(random), any(random)} * 5.0f;
+    walk.swing = 4.0f * any(random);
+    walk.tremble = 0.003f * (any(random) + 1.0f);
+    for (int step = 0; step < 40; ++step) {
+      walk.step();
+      walk.candidates().run();
+      ++(walk.was_just_made() ? made : kept);
+      ASSERT_TRUE(walk.same_as_without()) << "walk " << n << ", step " << step;
+    }
+    rows += walk.row_count;
+  }
+  EXPECT_GT(made, 100);
+  EXPECT_GT(kept, 500);
+  EXPECT_GT(rows, 10000u);
+}
+
+TEST(CapsuleCandidates, WhatTravelsTogetherIsLookedForOnce) {
+  Walk walk;
+  walk.velocity = {8, 0, 3};
+  for (int step = 0; step < 200; ++step) {
+    walk.step();
+    walk.candidates().run();
+    ASSERT_EQ(walk.was_just_made(), step == 0) << step;
+  }
+}
+
+TEST(CapsuleCandidates, AFarCapsuleHasNone) {
+  Walk walk;
+  walk.step();
+  walk.candidates().run();
+  const FeatureWords words(walk.cloth.garment);
+  const auto none = [&](std::uint32_t capsule) {
+    const std::uint64_t* near = walk.cloth.candidates.near.data() + words.end * capsule;
+    return std::all_of(near, near + words.end, [](std::uint64_t word) { return word == 0; });
+  };
+  EXPECT_FALSE(none(0));
+  EXPECT_FALSE(none(1));
+  EXPECT_TRUE(none(2));
+}
+
+TEST(CapsuleCandidates, OtherCapsulesAreLookedForAtOnce) {
+  Walk walk;
+  walk.step();
+  walk.candidates().run();
+  walk.step();
+  walk.cloth.put(0, walk.cloth.x(0) + Vec3{1e-4f, 0, 0}, walk.cloth.x(0));
+  walk.candidates().run();
+  EXPECT_FALSE(walk.was_just_made());
+  walk.capsules[2].index = 7;
+  walk.candidates().run();
+  EXPECT_TRUE(walk.was_just_made());
+}
+
+TEST(CapsuleCandidates, ValidateRefusesBrokenFields) {
+  Walk walk;
+  const CapsuleCandidates good = walk.candidates();
+  EXPECT_TRUE(good.validate());
+  CapsuleCandidates bad = good;
+  bad.garment = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.capsule_count = 4;  // there is room for three
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.thickness = -1.0f;
+  EXPECT_FALSE(bad.validate());
+  bad = good;
+  bad.scratch = nullptr;
+  EXPECT_FALSE(bad.validate());
+}
+
+}  // namespace
+}  // namespace pleat::test
