@@ -30,7 +30,9 @@ pleat_cloth_settings fine_settings(const pleat_api& api) {
   pleat_cloth_settings& s = def.settings;
   s.substeps = kSubsteps;
   s.sweeps = 1;
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
   s.stiffness = 300.0f;
+  s.buckling_strain = 1.0f;
   s.stretch_limit = 1.0f;
   s.bend_stiffness = 2e-5f;
   s.edge_damping = 40.0f;

@@ -14,11 +14,11 @@ const pleat_cloth_def& default_cloth() {
     pleat_cloth_def d{};
     d.size = sizeof d;
     d.settings = {.size = sizeof(pleat_cloth_settings),
-                  .integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER,
+                  .integrator = PLEAT_INTEGRATOR_PROJECTED,
                   .substeps = 0,
                   .sweeps = 3,
                   .density = 0.2f,
-                  .stiffness = 30.0f,
+                  .stiffness = 300.0f,
                   .stretch_limit = 0.001f,
                   .bend_stiffness = 5e-5f,
                   .edge_damping = 4.0f,
@@ -35,7 +35,8 @@ const pleat_cloth_def& default_cloth() {
                   .fold_sweeps = 0,
                   .self_distance = 0.0f,
                   .tangents = 0,
-                  .layer = 0};
+                  .layer = 0,
+                  .buckling_strain = 0.01f};
     return d;
   }();
   return def;
@@ -65,6 +66,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_compiled(kHasCollision || s.self_distance == 0.0f, "self_distance", "PLEAT_COLLISION");
   need_range("tangents", s.tangents, 0, 1);
   need_range("layer", s.layer, 0, 15);
+  need_range("buckling_strain", s.buckling_strain, 0, 1);
   need_compiled(kHasCollision || s.layer == 0, "layer", "PLEAT_COLLISION");
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }

@@ -165,14 +165,14 @@ typedef struct pleat_garment_info {
 /* How a cloth steps through time. omega: its highest angular frequency, about sqrt(12 stiffness / mass of a particle).
  * Those that are stable only in short steps get more substeps by themselves; see `substeps` of a cloth. */
 enum {
-  /* Default. Order 1, keeps energy, stable to 2/omega. For games: soft springs, the strain limit holds the length. */
+  /* Order 1, keeps energy, stable to 2/omega: stiff edges cost substeps. To measure what the others lose. */
   PLEAT_INTEGRATOR_SYMPLECTIC_EULER = 0,
   /* The paper, section 5. Order 1, gains energy without damping, which only the strain limit takes: to compare with. */
   PLEAT_INTEGRATOR_EXPLICIT_EULER = 1,
   /* The paper, section 4.1. Order 4 where nothing is in contact, 4 force passes, stable to 2.6/omega: for accuracy. */
   PLEAT_INTEGRATOR_RUNGE_KUTTA_4 = 2,
-  /* Symplectic Euler with each edge solved in turn (Macklin et al., "Small Steps", 2019): as cheap, stable at any
-   * stiffness, and then softer than asked; its order is not measured. For stiff fabric in games. */
+  /* Default. Symplectic Euler with each edge solved in turn (Macklin et al., "Small Steps", 2019): as cheap, stable at
+   * any stiffness, and then softer than asked; its order is not measured. For games. */
   PLEAT_INTEGRATOR_PROJECTED = 3,
   /* All edges solved together (Baraff and Witkin, 1998) in substeps of four times the length: order 1, stable at any
    * stiffness and true to it at rest, damps motion of periods below a few substeps. For stiff fabric without the strain
@@ -199,20 +199,21 @@ enum {
 /* Settings that may change while the cloth lives (cloth_set). Filled by cloth_def_init or cloth_get. */
 typedef struct pleat_cloth_settings {
   uint32_t size;
-  uint32_t integrator;  /* default PLEAT_INTEGRATOR_SYMPLECTIC_EULER */
-  uint32_t substeps;    /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for, and more when
-                           a capsule crosses the cloth fast or, up to four times as many, when springs or bending need
-                           shorter steps to be stable; at most 64. Where that is not enough the stiffest edges act
-                           softer: see stiffness_lowered */
-  uint32_t sweeps;      /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
-                           farthest particle; default 3, 1..64 */
-  float density;        /* kg/m2; default 0.2 */
-  float stiffness;      /* k of eq (1), N/m; default 30. Small on purpose: the strain limit holds the length */
-  float stretch_limit;  /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
-  float bend_stiffness; /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
-  float edge_damping;   /* rate at which an edge's stretching motion dies, 1/s; default 4 */
-  float bend_damping;   /* the same for the angle across an edge, 1/s; default 4 */
-  float air_damping;    /* rate at which all motion dies, 1/s; default 0.1 */
+  uint32_t integrator; /* default PLEAT_INTEGRATOR_PROJECTED */
+  uint32_t substeps;   /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for, and more when
+                          a capsule crosses the cloth fast or, up to four times as many, when springs or bending need
+                          shorter steps to be stable; at most 64. Where that is not enough the stiffest edges act
+                          softer: see stiffness_lowered */
+  uint32_t sweeps;     /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
+                          farthest particle; default 3, 1..64 */
+  float density;       /* kg/m2; default 0.2 */
+  float stiffness; /* k of eq (1), N/m; default 300. Holds against slight compression; the strain limit holds the length
+                    */
+  float stretch_limit;    /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
+  float bend_stiffness;   /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
+  float edge_damping;     /* rate at which an edge's stretching motion dies, 1/s; default 4 */
+  float bend_damping;     /* the same for the angle across an edge, 1/s; default 4 */
+  float air_damping;      /* rate at which all motion dies, 1/s; default 0.1 */
   float drag_coefficient; /* C_d of a face in the wind; default 0: no face drag */
   float thickness;        /* distance kept from bodies, m; default 0.005 */
   float friction;         /* Coulomb coefficient, multiplied by the collider's; default 0.2 */
@@ -227,9 +228,11 @@ typedef struct pleat_cloth_settings {
   float self_distance;    /* kept between parts of the cloth itself, m; at most a quarter of the mean edge's length is,
                              and asking for more logs a warning; default 0: it passes through itself */
   uint32_t tangents;      /* 1: make what tangent_offset of a pleat_vertex_target reads; default 0 */
-  uint32_t layer; /* of clothes worn over each other: cloths of layer 2 and up rest on those of lower layers from
-                     1 on, as on moving bodies, `thickness` apart, and do not press on them; at most 15,
-                     default 0: meets no other cloth */
+  uint32_t layer;        /* of clothes worn over each other: cloths of layer 2 and up rest on those of lower layers from
+                            1 on, as on moving bodies, `thickness` apart, and do not press on them; at most 15,
+                            default 0: meets no other cloth */
+  float buckling_strain; /* compression beyond which an edge yields, as the cloth along it would bulge: from there a
+                            tenth of `stiffness` resists; fraction, default 0.01; 1: never, the paper's springs */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:

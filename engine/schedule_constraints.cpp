@@ -62,7 +62,7 @@ constexpr Row kRows[] = {
      [](ClothTick& t) {
        run(ElasticProjection{.garment = &t.garment,
                              .inverse_mass = t.inverse_mass,
-                             .stiffness = t.settings.stiffness,
+                             .law = t.edge_law(),
                              .dt = t.dt,
                              .position = t.position});
      }},

@@ -52,7 +52,7 @@ constexpr Row kRows[] = {
        run(ElasticForce{.garment = &t.garment,
                         .position = t.position,
                         .inverse_mass = t.inverse_mass,
-                        .stiffness = t.settings.stiffness,
+                        .law = t.edge_law(),
                         .room = t.spring_room,
                         .force = t.force});
      }},
@@ -193,7 +193,7 @@ constexpr Row kRows[] = {
                                .matrix = t.cloth.source->implicit.get(),
                                .inverse_mass = t.inverse_mass,
                                .force = t.force,
-                               .stiffness = t.settings.stiffness,
+                               .law = t.edge_law(),
                                .dt = t.dt,
                                .position = t.position,
                                .velocity = t.velocity});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "components/edge_law.h"
 #include "engine/world.h"
 
 namespace pleat {
@@ -33,6 +34,7 @@ struct ClothTick {
   float *fold_height = nullptr, *fold_side = nullptr, *drawn_handedness = nullptr;
 
   ClothTick(World& w, ClothRecord& c);
+  EdgeLaw edge_law() const { return {.stiffness = settings.stiffness, .buckling = settings.buckling_strain}; }
 };
 
 struct Row {

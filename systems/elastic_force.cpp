@@ -6,7 +6,7 @@ namespace pleat {
 
 bool ElasticForce::validate() const {
   return garment != nullptr && position.x != nullptr && inverse_mass != nullptr && force.x != nullptr &&
-         stiffness >= 0.0f && room > 0.0f;
+         law.stiffness >= 0.0f && law.buckling >= 0.0f && room > 0.0f;
 }
 
 void ElasticForce::run() const {
@@ -19,8 +19,10 @@ void ElasticForce::run() const {
     const Vec3 d = position[j] - position[i];
     const float yielding = 2.0f * std::max(inverse_mass[i] * static_cast<float>(edges_at[i]),
                                            inverse_mass[j] * static_cast<float>(edges_at[j]));
-    const float k = stiffness * yielding > room ? room / yielding : stiffness;
-    const Vec3 f = d * (k * (length(d) / rest_length[e] - 1.0f));
+    const float l = length(d) / rest_length[e];
+    const EdgeLine line = law.at(l);
+    const float k = line.stiffness * yielding > room ? room / yielding : line.stiffness;
+    const Vec3 f = d * (k * (l - line.rest));
     force.add(i, f);
     force.add(j, -f);
   }

@@ -3,6 +3,7 @@
 //   M. Oshita, A. Makinouchi, 2001, eq (1).
 #pragma once
 
+#include "components/edge_law.h"
 #include "components/garment.h"
 
 namespace pleat {
@@ -10,13 +11,14 @@ namespace pleat {
 /// One pass over the edges, in order, in place of ElasticForce: moves the ends of each to where the force of eq (1) at
 /// the end of the step would bring them, were they alone in the world,
 ///   x_i += w_i dt^2 F / (1 + (w_i + w_j) dt^2 k l/L),   F = k (l - L)/L (x_j - x_i),   x_j likewise with -F
-/// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept.
+/// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
+/// that would end past its buckling is solved on that line of its law.
 /// Reads:  garment edges; inverse_mass (P) 1/kg.  Writes: position (P) m.  Cost: O(E), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
-  float stiffness = 0.0f;  // k, N/m, > 0
-  float dt = 0.0f;         // s
+  EdgeLaw law;      // stiffness > 0
+  float dt = 0.0f;  // s
   Vec3View position;
 
   bool validate() const;

@@ -108,7 +108,7 @@ ImplicitMatrix::~ImplicitMatrix() = default;
 
 bool ImplicitIntegration::validate() const {
   return garment != nullptr && matrix != nullptr && inverse_mass != nullptr && force.x != nullptr &&
-         position.x != nullptr && velocity.x != nullptr && stiffness >= 0.0f && dt > 0.0f;
+         position.x != nullptr && velocity.x != nullptr && law.stiffness >= 0.0f && law.buckling >= 0.0f && dt > 0.0f;
 }
 
 void ImplicitIntegration::run() const {
@@ -136,8 +136,10 @@ void ImplicitIntegration::run() const {
     const Vector3 d = wide(position[j] - position[i]);
     const double l = d.norm(), rest = static_cast<double>(garment->edge_rest_length[e]);
     const Vector3 u = l > 0.0 ? Vector3(d / l) : Vector3(0.0, 0.0, 0.0);
-    const double k = step * step * static_cast<double>(stiffness);
-    const Block block = k * (std::max(l / rest - 1.0, 0.0) * Block::Identity() + l / rest * u * u.transpose());
+    const EdgeLine line = law.at(static_cast<float>(l / rest));
+    const double k = step * step * static_cast<double>(line.stiffness);
+    const double tension = std::max(l / rest - static_cast<double>(line.rest), 0.0);
+    const Block block = k * (tension * Block::Identity() + l / rest * u * u.transpose());
     const Vector3 pull = block * wide(velocity[j] - velocity[i]);
     const int ri = p.row[i], rj = p.row[j];
     if (ri != kPinned) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "components/edge_law.h"
 #include "components/garment.h"
 
 namespace pleat {
@@ -23,18 +24,18 @@ class ImplicitMatrix {
 };
 
 /// A step of backward Euler, linearised where it begins; `force` holds all forces there, the springs' too:
-///   (M + dt^2 K) (v' - v) = dt (F - dt K v),   x' = x + dt v',   K = sum over edges of k (max(l/L - 1, 0) I + l/L u
+///   (M + dt^2 K) (v' - v) = dt (F - dt K v),   x' = x + dt v',   K = sum over edges of k (max(l/L - r, 0) I + l/L u
 ///   u^T)
-/// M + dt^2 K is positive definite at any stiffness. Pins keep their velocity.
-/// Reads:  garment edges; inverse_mass (P) 1/kg; force (P) N.  Writes: position m, velocity m/s (P).
+/// with k and r of the line of its law that an edge is on. M + dt^2 K is positive definite at any stiffness. Pins keep
+/// their velocity. Reads:  garment edges; inverse_mass (P) 1/kg; force (P) N.  Writes: position m, velocity m/s (P).
 /// Cost:   O(P^1.5) for a sheet, no allocation below 5,000 particles.  Errors: none.
 struct ImplicitIntegration {
   const Garment* garment = nullptr;
   ImplicitMatrix* matrix = nullptr;
   const float* inverse_mass = nullptr;
   ConstVec3View force;
-  float stiffness = 0.0f;  // k of eq (1), N/m
-  float dt = 0.0f;         // s
+  EdgeLaw law;
+  float dt = 0.0f;  // s
   Vec3View position, velocity;
 
   bool validate() const;

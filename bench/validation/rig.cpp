@@ -11,6 +11,7 @@ pleat_cloth_settings bare_settings(const pleat_api& api) {
   api.cloth_def_init(&def, sizeof def);
   pleat_cloth_settings& s = def.settings;
   s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
+  s.buckling_strain = 1.0f;  // linear springs
   s.substeps = s.sweeps = 1;
   s.stiffness = s.bend_stiffness = 0.0f;
   s.edge_damping = s.bend_damping = s.air_damping = s.inner_friction = 0.0f;

@@ -46,7 +46,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"fold_sweeps", &S::fold_sweeps},
                               {"self_distance", &S::self_distance},
                               {"tangents", &S::tangents},
-                              {"layer", &S::layer}};
+                              {"layer", &S::layer},
+                              {"buckling_strain", &S::buckling_strain}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

@@ -59,7 +59,8 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"thickness", &S::thickness},
                                                        {"friction", &S::friction},
                                                        {"inner_friction", &S::inner_friction},
-                                                       {"self_distance", &S::self_distance}};
+                                                       {"self_distance", &S::self_distance},
+                                                       {"buckling_strain", &S::buckling_strain}};
   for (const auto& [name, field] : floats) {
     for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
   }

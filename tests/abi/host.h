@@ -113,9 +113,9 @@ class Host : public testing::Test {
          {s.integrator, s.substeps, s.sweeps, s.face_response, s.surface, s.level, s.tangents}) {
       all.push_back(static_cast<float>(value));
     }
-    all.insert(all.end(),
-               {s.density, s.stiffness, s.stretch_limit, s.bend_stiffness, s.edge_damping, s.bend_damping,
-                s.air_damping, s.drag_coefficient, s.lift_coefficient, s.thickness, s.friction, s.inner_friction});
+    all.insert(all.end(), {s.density, s.stiffness, s.stretch_limit, s.bend_stiffness, s.edge_damping, s.bend_damping,
+                           s.air_damping, s.drag_coefficient, s.lift_coefficient, s.thickness, s.friction,
+                           s.inner_friction, s.buckling_strain});
     return all;
   }
 

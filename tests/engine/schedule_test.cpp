@@ -33,10 +33,11 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
   for (const char* name :
-       {"pin_motion", "elastic_force", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
+       {"pin_motion", "elastic_projection", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
         "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
+  EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: edges are projected"));
   EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient and lift_coefficient are 0"));
   EXPECT_TRUE(scene.explain("tether_constraint").ends_with("left out: no particle is far from a pin"));
   EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: another integrator"));
@@ -47,7 +48,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   s.drag_coefficient = 1.0f;
   s.surface = PLEAT_SURFACE_FLAT;
   must(call::cloth_set(scene, cloth, &s));
-  EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: stiffness is 0"));
+  EXPECT_TRUE(scene.explain("elastic_projection").ends_with("left out: stiffness is 0"));
   EXPECT_TRUE(scene.explain("hinge_bending").ends_with("left out: bend_stiffness is 0"));
   EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
   EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
@@ -66,8 +67,9 @@ TEST(Schedule, TellsHowManyClothsRunASystem) {
   scene.cloth(sheet, s);
   s.stiffness = 0.0f;
   scene.cloth(sheet, s);
-  EXPECT_TRUE(scene.explain("elastic_force").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
-      << scene.explain("elastic_force");
+  EXPECT_TRUE(
+      scene.explain("elastic_projection").ends_with("run for 1 of 2 cloths, left out of the others: stiffness is 0"))
+      << scene.explain("elastic_projection");
 }
 
 TEST(Schedule, GravityIsPlannedAnewWhenItChanges) {
@@ -220,6 +222,7 @@ TEST(Schedule, StiffSpringsGetMoreSubstepsAndSayWhenTheyNeedTooMany) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
   s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
+  s.stiffness = 30.0f;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4), s);
   scene.step(1, 1.0f / 60);
   EXPECT_EQ(scene.info(cloth).substeps, 8u);

@@ -66,7 +66,7 @@ void stretch(Sheet& s) {
 
 const Case kCases[] = {
     {"ElasticForce",
-     [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, 30.0f, 1e6f, s.force}.run(); },
+     [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, {30.0f}, 1e6f, s.force}.run(); },
      {"force"}},
     {"HingeBending",
      [](Sheet& s) { HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, s.force}.run(); },
@@ -101,13 +101,13 @@ const Case kCases[] = {
      {"position", "velocity"}},
     {"ElasticProjection",
      [](Sheet& s) {
-       ElasticProjection{&s.garment, s.inverse_mass, 30.0f, kDt, s.position}.run();
+       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, kDt, s.position}.run();
      },
      {"position"}},
     {"ImplicitIntegration",
      [](Sheet& s) {
        ImplicitMatrix matrix(s.garment);
-       ImplicitIntegration{&s.garment, &matrix, s.inverse_mass, s.force, 30.0f, kDt, s.position, s.velocity}.run();
+       ImplicitIntegration{&s.garment, &matrix, s.inverse_mass, s.force, {30.0f}, kDt, s.position, s.velocity}.run();
      },
      {"position", "velocity"}},
     {"StretchConstraint", stretch, {"position"}},

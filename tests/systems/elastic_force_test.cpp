@@ -13,7 +13,7 @@ ElasticForce job(Sheet& sheet, float stiffness = 30.0f, float room = kEndless) {
   return {.garment = &sheet.garment,
           .position = sheet.position,
           .inverse_mass = sheet.inverse_mass,
-          .stiffness = stiffness,
+          .law = {stiffness},
           .room = room,
           .force = sheet.force};
 }
@@ -48,7 +48,7 @@ TEST(ElasticForce, RefusesToRunWithAFieldMissing) {
   bad = good, bad.force = {};
   EXPECT_FALSE(bad.validate());
   for (const float value : {-1.0f, kNan}) {
-    bad = good, bad.stiffness = value;
+    bad = good, bad.law.stiffness = value;
     EXPECT_FALSE(bad.validate());
   }
   for (const float value : {0.0f, -1.0f, kNan}) {
@@ -104,6 +104,21 @@ TEST(ElasticForce, TangentStiffnessIsKAtRestAndZeroAtHalfLength) {
   EXPECT_NEAR((force_at(2.01f) - force_at(1.99f)) / 0.02f, 30.0f, 0.05f);
   EXPECT_NEAR((force_at(1.01f) - force_at(0.99f)) / 0.02f, 0.0f, 0.05f);
   EXPECT_NEAR((force_at(2.21f) - force_at(2.19f)) / 0.02f, 36.0f, 0.05f);
+}
+
+TEST(ElasticForce, PastItsBucklingRisesATenthAsFastFromTheSameForce) {
+  const auto force_at = [](float stretch) {
+    Sheet sheet = single_face();
+    for (std::uint32_t i = 0; i < 3; ++i) sheet.position.set(i, sheet.position[i] * stretch);
+    ElasticForce bent = job(sheet);
+    bent.law.buckling = 0.25f;
+    bent.run();
+    return sheet.force[0].x / (3.0f * stretch);  // over the edges' sum: k (s - 1)
+  };
+  EXPECT_FLOAT_EQ(force_at(1.5f), 15.0f);
+  EXPECT_FLOAT_EQ(force_at(0.75f), -7.5f);
+  EXPECT_NEAR(force_at(0.7499f), -7.5f, 1e-3f);
+  EXPECT_FLOAT_EQ(force_at(0.5f), -7.5f - 0.75f);
 }
 
 TEST(ElasticForce, KeepsMomentum) {

@@ -11,8 +11,7 @@ namespace {
 constexpr float kDt = 1.0f / 480;
 
 ElasticProjection job(Sheet& s, float stiffness) {
-  return {
-      .garment = &s.garment, .inverse_mass = s.inverse_mass, .stiffness = stiffness, .dt = kDt, .position = s.position};
+  return {.garment = &s.garment, .inverse_mass = s.inverse_mass, .law = {stiffness}, .dt = kDt, .position = s.position};
 }
 Sheet shaken_sheet() {
   static constexpr std::uint32_t kPins[] = {0, 4};
@@ -33,7 +32,7 @@ TEST(ElasticProjection, RefusesToRunWithAFieldMissing) {
   bad = good, bad.position = {};
   EXPECT_FALSE(bad.validate());
   for (const float value : {0.0f, -1.0f, kNan}) {
-    bad = good, bad.stiffness = value;
+    bad = good, bad.law.stiffness = value;
     EXPECT_FALSE(bad.validate());
     bad = good, bad.dt = value;
     EXPECT_FALSE(bad.validate());
@@ -44,7 +43,7 @@ TEST(ElasticProjection, OfSoftEdgesIsTheirForce) {
   Sheet projected = shaken_sheet(), forced = shaken_sheet();
   constexpr float kSoft = 0.1f;
   job(projected, kSoft).run();
-  ElasticForce{&forced.garment, forced.position, forced.inverse_mass, kSoft, 1e30f, forced.force}.run();
+  ElasticForce{&forced.garment, forced.position, forced.inverse_mass, {kSoft}, 1e30f, forced.force}.run();
   for (std::uint32_t i = 0; i < forced.count; ++i) {
     const Vec3 expected = forced.force[i] * (forced.inverse_mass[i] * kDt * kDt);
     EXPECT_NEAR(length(projected.position[i] - forced.position[i] - expected), 0.0f, 0.02f * length(expected) + 1e-7f);
@@ -60,6 +59,29 @@ TEST(ElasticProjection, OfAStiffEdgeIsItsRestLength) {
     const Vec3 d =
         face.position[face.garment.edge_particle[1][last]] - face.position[face.garment.edge_particle[0][last]];
     EXPECT_NEAR(length(d), face.garment.edge_rest_length[last], 1e-4f) << stretch;
+  }
+}
+
+TEST(ElasticProjection, EndsWhereTheForceOfItsLawLeadsThere) {
+  for (const float stretch : {0.3f, 0.9f, 0.97f, 0.985f, 0.995f, 1.2f}) {
+    for (const float stiffness : {1.0f, 1e3f, 1e5f}) {
+      Sheet face({{{0, 0, 0}, {2, 0, 0}, {1, 0, -1}}, {{0, 1, 2}}});
+      const std::uint32_t i = face.garment.edge_particle[0][0], j = face.garment.edge_particle[1][0];
+      const float rest = face.garment.edge_rest_length[0];
+      for (std::uint32_t k = 0; k < 3; ++k) face.position.set(k, face.position[k] * stretch);
+      face.garment.edge_count = 1;
+      ElasticProjection edge = job(face, stiffness);
+      edge.law.buckling = 0.01f;
+      const Vec3 before = face.position[j] - face.position[i];
+      edge.run();
+      const Vec3 after = face.position[j] - face.position[i];
+      // Backward Euler of the edge alone, the factor l of eq (1) taken where the step begins.
+      const float s = length(after) / rest;
+      const EdgeLine line = edge.law.at(s);
+      const float weight = face.inverse_mass[i] + face.inverse_mass[j];
+      const float pulled = weight * kDt * kDt * line.stiffness * (s - line.rest) * length(before);
+      EXPECT_NEAR(length(before) - length(after), pulled, 1e-5f) << stretch << ' ' << stiffness;
+    }
   }
 }
 

@@ -19,7 +19,7 @@ constexpr float kEndless = 1e30f;  // room for any stiffness
 FrequencyRates rates_of(const Sheet& s) { return FrequencyBound{&s.garment, s.inverse_mass}.run(); }
 
 void add_springs(Sheet& s, float k) {
-  ElasticForce{&s.garment, s.position, s.inverse_mass, k, kEndless, s.force}.run();
+  ElasticForce{&s.garment, s.position, s.inverse_mass, {k}, kEndless, s.force}.run();
 }
 void add_hinges(Sheet& s, float b) {
   HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, b, 0.0f, 1e-6f, s.force}.run();
@@ -108,7 +108,7 @@ float strain_after(float dt, float room, int steps) {
   shake(sheet.position, sheet.count, 1e-3f, 3);
   for (int i = 0; i < steps; ++i) {
     sheet.clear_force();
-    ElasticForce{&sheet.garment, sheet.position, sheet.inverse_mass, 1e5f, room, sheet.force}.run();
+    ElasticForce{&sheet.garment, sheet.position, sheet.inverse_mass, {1e5f}, room, sheet.force}.run();
     EulerIntegration{sheet.count, sheet.inverse_mass, sheet.force, dt, true, sheet.position, sheet.velocity}.run();
   }
   float most = 0.0f;

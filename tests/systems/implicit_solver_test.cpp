@@ -21,14 +21,14 @@ Sheet shaken_sheet() {
   return sheet;
 }
 
-void add_springs(Sheet& s, float k) { ElasticForce{&s.garment, s.position, s.inverse_mass, k, 1e30f, s.force}.run(); }
+void add_springs(Sheet& s, float k) { ElasticForce{&s.garment, s.position, s.inverse_mass, {k}, 1e30f, s.force}.run(); }
 
 ImplicitIntegration job(Sheet& s, ImplicitMatrix& matrix, float stiffness, float dt) {
   return {.garment = &s.garment,
           .matrix = &matrix,
           .inverse_mass = s.inverse_mass,
           .force = s.force,
-          .stiffness = stiffness,
+          .law = {stiffness},
           .dt = dt,
           .position = s.position,
           .velocity = s.velocity};
@@ -50,7 +50,7 @@ TEST(ImplicitIntegration, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.velocity = {};
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.stiffness = kNan;
+  bad = good, bad.law.stiffness = kNan;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.dt = 0.0f;
   EXPECT_FALSE(bad.validate());

@@ -12,7 +12,7 @@ namespace {
 
 using Force = void (*)(Sheet&);
 
-void elastic(Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, 30.0f, 1e6f, s.force}.run(); }
+void elastic(Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, {30.0f}, 1e6f, s.force}.run(); }
 void bending(Sheet& s) {
   HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1e-3f, 4.0f, 1e-3f, s.force}.run();
 }
