@@ -1,5 +1,7 @@
 #include "systems/capsule_detection.h"
 
+#include <algorithm>
+
 #include "components/wide.h"
 #include "systems/capsule_shape.h"
 #include "systems/contact_row.h"
@@ -7,8 +9,16 @@
 namespace pleat {
 namespace {
 
-/// An edge's ends are tested as particles; this much of it at each end is theirs.
-constexpr float kEndShare = 0.02f;
+/// An edge's ends are tested as particles; this much of it at each end is theirs. From there to kFullShare the edge's
+/// row gains strength: where bodies leave no room a row that comes and goes whole would keep the cloth trembling.
+constexpr float kEndShare = 0.02f, kFullShare = 0.17f;
+constexpr float kLeastRelaxation = 0.01f;
+
+/// How much of its push an edge's row makes in each sweep; s: the touching point's place along the edge, 0 to 1.
+float relaxation_at(float s) {
+  const float from_end = std::min(s, 1.0f - s);
+  return std::clamp((from_end - kEndShare) / (kFullShare - kEndShare), kLeastRelaxation, 1.0f);
+}
 
 Vec3 any_perpendicular(const Vec3& a) {
   return normalized_or(std::abs(a.x) < std::abs(a.y) ? Vec3{0.0f, a.z, -a.y} : Vec3{-a.z, 0.0f, a.x}, {0, 1, 0});
@@ -74,12 +84,12 @@ struct CapsuleTest {
   /// A row that keeps a point of the cloth, now `away` from core(t) and `away_before` from it when the substep began,
   /// on the side where it was.
   void add_round(const std::uint32_t (&particle)[3], const float (&weight)[3], float t, const Vec3& away,
-                 const Vec3& away_before, bool at_particle, Stats& stats) const {
+                 const Vec3& away_before, bool at_particle, Stats& stats, float relaxation = 1.0f) const {
     const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
     const Vec3 fallback = normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
     const Vec3 normal = dot(away, away) > 1e-12f ? normalized_or(away * side, fallback) : fallback;
     const float kept = distance(t) - given_up(core(t) + away, normal, distance(t) - dot(normal, away));
-    rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats);
+    rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats, relaxation);
   }
 
   void test_particles(Stats& stats) const {
@@ -102,7 +112,7 @@ struct CapsuleTest {
       const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
       if (!(dot(away, away) < reach * reach)) return;
       const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
-      add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats);
+      add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats, relaxation_at(at.s));
     });
   }
 

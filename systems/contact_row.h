@@ -38,8 +38,10 @@ struct ContactRowMaker {
   ContactList contacts;
 
   /// n . (sum of weight x) >= n . surface + distance. Nothing is added where all weight is on pinned particles.
+  /// `relaxation`: of what is missing, the share that is made up in each sweep.
   void add(const std::uint32_t (&particle)[3], const float (&weight)[3], const Vec3& normal, const Vec3& surface,
-           float distance, const Vec3& body_step, float body_friction, bool at_particle, Stats& stats) const {
+           float distance, const Vec3& body_step, float body_friction, bool at_particle, Stats& stats,
+           float relaxation = 1.0f) const {
     add({.particle = {particle[0], particle[1], particle[2]},
          .weight = {weight[0], weight[1], weight[2]},
          .count = at_particle ? 1u : 3u,
@@ -49,11 +51,11 @@ struct ContactRowMaker {
          .friction = friction * body_friction,
          .inverse_mass = 0.0f,
          .push = 0.0f},
-        stats);
+        stats, relaxation);
   }
 
   /// Fills in inverse_mass, and brings offset down to what the substep may undo.
-  void add(ContactRow row, Stats& stats) const {
+  void add(ContactRow row, Stats& stats, float relaxation = 1.0f) const {
     Vec3 carried = row.body_step;
     float lightest = 0.0f;
     for (std::uint32_t k = 0; k < row.count; ++k) {
@@ -63,7 +65,7 @@ struct ContactRowMaker {
       if (b != 0.0f) lightest = std::max(lightest, w);
     }
     if (!(row.inverse_mass > 0.0f)) return;
-    row.inverse_mass = std::max(row.inverse_mass, kLeastYield * lightest);
+    row.inverse_mass = std::max(row.inverse_mass, kLeastYield * lightest) / relaxation;
     row.offset = std::min(row.offset, dot(row.normal, carried) + kRecoverySpeed * dt);
     if (!contacts.add(row)) ++stats.contacts_dropped;
   }

@@ -135,8 +135,8 @@ TEST(Pinch, OverlappingLimbsHoldTheClothCalmAndLetItGo) {
 }
 
 TEST(Pinch, CrossingLimbsStretchTheClothLittleAndHoldItCalm) {
-  for (const float height : {-0.53f, -0.4f}) {
-    for (const float slope : {0.1f, 0.3f, 0.5f}) {
+  for (const float height : {-0.7f, -0.53f, -0.4f, -0.25f, -0.15f}) {  // from far below the pins to next to them
+    for (const float slope : {0.1f, 0.4f}) {
       Pinch pinch(height, slope);
       pinch.close_to(-0.02f, 4.0f);
       SCOPED_TRACE(testing::Message() << "height " << height << ", slope " << slope);

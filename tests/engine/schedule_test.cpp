@@ -198,7 +198,7 @@ TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
   seen.names.clear();
   scene.step();
   EXPECT_EQ(seen.depth, 0);
-  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_force"), 2);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_projection"), 2);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "stretch_constraint"), 6);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "air_drag"), 0);
 }
