@@ -9,12 +9,11 @@ namespace {
 
 std::uint32_t find_edge(const Garment& g, std::array<std::uint32_t, 2> ends) {
   std::sort(ends.begin(), ends.end());
-  std::uint32_t low = 0, high = g.edge_count;
-  while (low < high) {
-    const std::uint32_t middle = (low + high) / 2;
-    const std::array edge{g.edge_particle[0][middle], g.edge_particle[1][middle]};
-    if (edge == ends) return middle;
-    (edge < ends ? low : high) = edge < ends ? middle + 1 : middle;
+  for (std::uint32_t k = g.around_begin[ends[0]]; k < g.around_begin[ends[0] + 1]; ++k) {
+    for (const auto& side : g.face_edge) {
+      const std::uint32_t e = side[g.faces_around[k]];
+      if (g.edge_particle[0][e] == ends[0] && g.edge_particle[1][e] == ends[1]) return e;
+    }
   }
   return kNone;
 }

@@ -1,9 +1,11 @@
 #include "components/garment.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "components/creases.h"
+#include "components/edge_order.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
 
@@ -57,45 +59,42 @@ void add_faces(const GarmentInput& input, Garment& g) {
 }
 
 void add_edges(const GarmentInput& input, Garment& g) {
-  struct Side {
-    std::array<std::uint32_t, 2> edge;
-    std::uint32_t face, k;
-    auto operator<=>(const Side&) const = default;
+  std::vector<EdgeEnds> edges;
+  const auto side = [&](std::uint32_t f, std::uint32_t k) {
+    const std::uint32_t a = input.triangles[f][k], b = input.triangles[f][(k + 1) % 3];
+    return EdgeEnds{std::min(a, b), std::max(a, b)};
   };
-  std::vector<Side> sides;
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = input.triangles[f][k], b = input.triangles[f][(k + 1) % 3];
-      sides.push_back({{std::min(a, b), std::max(a, b)}, f, k});
-    }
+    for (std::uint32_t k = 0; k < 3; ++k) edges.push_back(side(f, k));
   }
-  std::sort(sides.begin(), sides.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  order_edges(g.particle_count, input.pins, edges);
 
-  const auto is_new = [&](std::size_t s) { return s == 0 || sides[s].edge != sides[s - 1].edge; };
-  for (std::size_t s = 0; s < sides.size(); ++s) g.edge_count += is_new(s) ? 1u : 0u;
+  g.edge_count = static_cast<std::uint32_t>(edges.size());
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
   g.edge_rest_length.resize(g.edge_count);
   g.edge_rest_curve_length.resize(g.edge_count);
   g.edges_at.resize(g.particle_count);
-
+  std::map<EdgeEnds, std::uint32_t> index;
   double total = 0.0;
-  std::uint32_t e = 0;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const Side& side = sides[s];
-    if (is_new(s)) {
-      e = s == 0 ? 0 : e + 1;
-      const auto [i, j] = side.edge;
-      g.edge_particle[0][e] = i, g.edge_particle[1][e] = j;
-      ++g.edges_at[i], ++g.edges_at[j];
-      g.edge_face[0][e] = side.face, g.edge_face[1][e] = kNone;
-      g.edge_rest_length[e] = length(input.positions[j] - input.positions[i]);
-      total += g.edge_rest_length[e];
-    } else {
-      g.edge_face[1][e] = side.face;
-    }
-    g.face_edge[side.k][side.face] = e;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    const auto [i, j] = edges[e];
+    index[edges[e]] = e;
+    g.edge_particle[0][e] = i, g.edge_particle[1][e] = j;
+    g.edge_face[0][e] = g.edge_face[1][e] = kNone;
+    ++g.edges_at[i], ++g.edges_at[j];
+    g.edge_rest_length[e] = length(input.positions[j] - input.positions[i]);
+    total += g.edge_rest_length[e];
   }
   g.mean_edge_length = static_cast<float>(total / g.edge_count);
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t e = index[side(f, k)];
+      g.face_edge[k][f] = e;
+      g.edge_face[g.edge_face[0][e] == kNone ? 0 : 1][e] = f;
+    }
+  }
   g.border_edge_count = static_cast<std::uint32_t>(std::count(g.edge_face[1].begin(), g.edge_face[1].end(), kNone));
 }
 

@@ -34,7 +34,7 @@ struct Garment {
   Column<std::uint32_t> face_particle[3], face_edge[3];
   Column<float> face_rest_area;  // m2
 
-  // Edges (E), each once, sorted by (first, second) particle, first < second.
+  // Edges (E), each once, in the order in which they are solved (edge_order.h); first particle < second.
   Column<std::uint32_t> edge_particle[2];
   Column<std::uint32_t> edge_face[2];    // the second is kNone on the border
   Column<float> edge_rest_length;        // m

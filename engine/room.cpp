@@ -32,6 +32,7 @@ void resize_together(std::size_t size, Columns&... columns) {
 
 void make_dynamics_room(World& world, const ClothRecord& cloth) {
   const std::size_t particles = world.particles.mass.size();
+  at_least(world.packed_particles, cloth.garment().particle_count);
   if (cloth.settings.inner_friction > 0.0f || world.held.size() != 0) world.held.resize(particles);
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
     resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,

@@ -28,7 +28,8 @@ void limit_stretch(ClothTick& t) {
   run(StretchConstraint{.garment = &t.garment,
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
-                        .position = t.position},
+                        .position = t.position,
+                        .packed = t.world.packed_particles.data()},
       t.world.stats);
 }
 

@@ -105,6 +105,7 @@ World::World(const pleat_world_def& definition)
       meshes(&memory),
       planes(&memory),
       mesh_pointers(&memory),
+      packed_particles(&memory),
       capsule_poses(&memory),
       contacts(&memory),
       capsule_candidates(&memory),

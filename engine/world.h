@@ -126,6 +126,7 @@ struct World {
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
 
   // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until something needs it.
+  Column<PackedParticle> packed_particles;
   Column<CapsulePose> capsule_poses;
   Column<ContactRow> contacts;
   CapsuleCandidateColumns capsule_candidates;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "components/garment.h"
+#include "components/particles.h"
 #include "components/stats.h"
 
 namespace pleat {
@@ -13,13 +14,14 @@ namespace pleat {
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are central
 /// and weighted by inverse mass, so momentum is kept except at pins.
 /// Reads:  garment edges; inverse_mass (P) 1/kg
-/// Writes: position (P) m; stats.edges_skipped
-/// Cost:   O(E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
+/// Writes: position (P) m; packed, scratch; stats.edges_skipped
+/// Cost:   O(P + E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
   float limit = 0.0f;  // fraction of the rest length
   Vec3View position;
+  PackedParticle* packed = nullptr;  // (P)
 
   bool validate() const;
   void run(Stats& stats) const;

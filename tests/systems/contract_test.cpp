@@ -61,7 +61,7 @@ void guard(Sheet& s) {
 }
 void stretch(Sheet& s) {
   Stats stats;
-  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, s.position}.run(stats);
+  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, s.position, s.packed.data()}.run(stats);
 }
 
 const Case kCases[] = {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 #include <span>
+#include <vector>
 
 #include "components/garment.h"
 #include "components/particles.h"
@@ -19,6 +20,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 struct Sheet {
   Garment garment;
   ParticleColumns particles;
+  std::vector<PackedParticle> packed;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;
   float* inverse_mass;
@@ -27,6 +29,7 @@ struct Sheet {
   explicit Sheet(const Mesh& mesh, std::span<const std::uint32_t> pins = {}, float density = 0.2f)
       : garment(build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource())),
         particles(std::pmr::new_delete_resource()),
+        packed(garment.particle_count),
         count(garment.particle_count) {
     for (Vec3Column* column :
          {&particles.position, &particles.velocity, &particles.force, &particles.previous, &particles.predicted}) {

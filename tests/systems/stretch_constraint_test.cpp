@@ -8,7 +8,11 @@ namespace pleat {
 namespace {
 
 StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
-  return {.garment = &sheet.garment, .inverse_mass = sheet.inverse_mass, .limit = limit, .position = sheet.position};
+  return {.garment = &sheet.garment,
+          .inverse_mass = sheet.inverse_mass,
+          .limit = limit,
+          .position = sheet.position,
+          .packed = sheet.packed.data()};
 }
 
 float worst_strain(const Sheet& sheet) {
@@ -31,6 +35,8 @@ TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
   bad = good, bad.inverse_mass = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.position = {};
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.packed = nullptr;
   EXPECT_FALSE(bad.validate());
   for (const float value : {-0.1f, kNan}) {
     bad = good, bad.limit = value;

@@ -1,0 +1,103 @@
+#include "components/edge_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace pleat {
+namespace {
+
+/// A sheet of rows and columns with one diagonal a square; its particles are numbered at random.
+struct Sheet {
+  std::uint32_t rows, columns;
+  std::vector<std::uint32_t> number;
+  std::vector<EdgeEnds> edges;
+
+  Sheet(std::uint32_t r, std::uint32_t c) : rows(r), columns(c), number(std::size_t{r} * c) {
+    std::iota(number.begin(), number.end(), 0u);
+    std::shuffle(number.begin(), number.end(), std::mt19937(7));
+    for (std::uint32_t i = 0; i < rows; ++i) {
+      for (std::uint32_t j = 0; j < columns; ++j) {
+        if (j + 1 < columns) add(i, j, i, j + 1);
+        if (i + 1 < rows) add(i, j, i + 1, j);
+        if (i + 1 < rows && j + 1 < columns) add(i, j, i + 1, j + 1);
+      }
+    }
+  }
+  std::uint32_t at(std::uint32_t row, std::uint32_t column) const { return number[row * columns + column]; }
+  std::uint32_t row_of(std::uint32_t particle) const {
+    const auto place = std::find(number.begin(), number.end(), particle) - number.begin();
+    return static_cast<std::uint32_t>(place) / columns;
+  }
+  std::vector<std::uint32_t> first_row() const { return {number.begin(), number.begin() + columns}; }
+
+ private:
+  void add(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::uint32_t l) {
+    edges.push_back({std::min(at(i, j), at(k, l)), std::max(at(i, j), at(k, l))});
+  }
+};
+
+/// Runs of edges that share no particle, as long as they last.
+std::size_t count_runs(const std::vector<EdgeEnds>& edges) {
+  std::size_t runs = 1;
+  std::set<std::uint32_t> met;
+  for (const EdgeEnds& edge : edges) {
+    if (met.contains(edge[0]) || met.contains(edge[1])) met.clear(), ++runs;
+    met.insert(edge.begin(), edge.end());
+  }
+  return runs;
+}
+
+TEST(EdgeOrder, KeepsEveryEdgeOnce) {
+  Sheet sheet(6, 9);
+  std::vector<EdgeEnds> ordered = sheet.edges;
+  order_edges(54, sheet.first_row(), ordered);
+  std::sort(ordered.begin(), ordered.end());
+  std::sort(sheet.edges.begin(), sheet.edges.end());
+  EXPECT_EQ(ordered, sheet.edges);
+}
+
+TEST(EdgeOrder, GoesFromThePinsDownWhateverTheNumbers) {
+  Sheet sheet(8, 12);
+  order_edges(96, sheet.first_row(), sheet.edges);
+  std::uint32_t last = 0;
+  for (const auto& [i, j] : sheet.edges) {
+    const std::uint32_t row = std::min(sheet.row_of(i), sheet.row_of(j));
+    EXPECT_GE(row, last);
+    last = row;
+  }
+  EXPECT_EQ(last, 7u);
+  EXPECT_LE(count_runs(sheet.edges), 8u * 7);  // a particle has at most six edges, four of them in one band
+}
+
+TEST(EdgeOrder, WithoutPinsFewRunsTakeTheWholeSheet) {
+  Sheet sheet(16, 16);
+  order_edges(256, {}, sheet.edges);
+  EXPECT_LE(count_runs(sheet.edges), 11u);
+}
+
+TEST(EdgeOrder, DoesNotDependOnTheOrderBefore) {
+  Sheet sheet(5, 7);
+  std::vector<EdgeEnds> shuffled = sheet.edges;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
+  order_edges(35, sheet.first_row(), sheet.edges);
+  order_edges(35, sheet.first_row(), shuffled);
+  EXPECT_EQ(shuffled, sheet.edges);
+}
+
+TEST(EdgeOrder, AFanOfAHundredAndLoosePartsAreTakenToo) {
+  std::vector<EdgeEnds> edges;
+  for (std::uint32_t i = 1; i <= 100; ++i) edges.push_back({0, i});
+  edges.push_back({101, 102});
+  const std::uint32_t pins[] = {3};
+  order_edges(103, pins, edges);
+  EXPECT_EQ(edges.size(), 101u);
+  EXPECT_EQ(edges.front(), (EdgeEnds{0, 3}));
+  EXPECT_EQ(std::set(edges.begin(), edges.end()).size(), 101u);
+}
+
+}  // namespace
+}  // namespace pleat
