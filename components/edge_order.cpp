@@ -41,7 +41,7 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> pi
   };
   const std::vector<std::uint32_t> hops = count_hops(particle_count, pins, edges);
   std::vector<Place> places;
-  for (const EdgeEnds& edge : edges) places.push_back({std::min(hops[edge[0]], hops[edge[1]]), 0, edge});
+  for (const EdgeEnds& edge : edges) places.push_back({hops[edge[0]] + hops[edge[1]], 0, edge});
   std::sort(places.begin(), places.end());
 
   // The first colour that neither end has yet, of 64: an edge between more of them may take one twice.

@@ -10,7 +10,7 @@ namespace pleat {
 
 using EdgeEnds = std::array<std::uint32_t, 2>;
 
-/// Puts edges in bands by how many edges they are from the nearest pin, nearest first: a pass over them carries a pull
+/// Puts edges in bands by how far their two ends are from the nearest pin, in edges: a pass over them carries a pull
 /// from the pins down. Within a band edges of one colour come together, which share no particle: a processor that need
 /// not wait for one to finish the next works on some at a time. Without pins all are one band. Cost: O(E log E).
 void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> pins, std::vector<EdgeEnds>& edges);
