@@ -19,7 +19,7 @@ using demo::TriangleMesh;
 
 btVector3 bullet(const Eigen::Vector3d& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
 
-btVector3 point(const std::vector<float>& positions, size_t index) {
+btVector3 point(std::span<const float> positions, size_t index) {
   return {positions[3 * index], positions[3 * index + 1], positions[3 * index + 2]};
 }
 
@@ -93,6 +93,12 @@ struct BulletScene::World {
       for (size_t c = 0; c < 3; ++c) cloth->appendLink(corners[c], corners[(c + 1) % 3], nullptr, true);
       cloth->appendFace(corners[0], corners[1], corners[2]);
     }
+    cloth->m_materials[0]->m_kLST = btScalar(settings.stiffness);
+    if (settings.bending > 0.0) {
+      btSoftBody::Material* bending = cloth->appendMaterial();
+      bending->m_kLST = btScalar(settings.bending);
+      cloth->generateBendingConstraints(2, bending);
+    }
     cloth->m_cfg.piterations = settings.iterations;
     cloth->m_cfg.kKHR = btScalar(settings.hardness);
     cloth->m_cfg.kDF = def.settings.friction;
@@ -143,6 +149,16 @@ void BulletScene::step() {
   }
   const btScalar dt = btScalar(1.0 / def().rate);
   world_->dynamics.stepSimulation(dt, 1, dt);
+}
+
+void BulletScene::write_particles(size_t copy, std::span<const float> positions) {
+  btSoftBody& cloth = *world_->cloths[copy];
+  for (int i = 0; i < cloth.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = cloth.m_nodes[i];
+    node.m_x = node.m_q = point(positions, size_t(i));
+    node.m_v = node.m_f = btVector3(0, 0, 0);
+  }
+  cloth.updateBounds();
 }
 
 void BulletScene::read_particles(size_t copy, std::vector<float>& positions) const {

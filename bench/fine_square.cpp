@@ -90,8 +90,8 @@ std::vector<float> refined(const std::vector<float>& coarse, uint32_t n) {
   return fine;
 }
 
-std::filesystem::path file_of(const std::filesystem::path& folder, const FineSquare& square) {
-  return folder / (std::string(square.name) + ".f32");
+std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) {
+  return folder / (name + ".f32");
 }
 
 /// Where n x n particles come to rest from `start`.
@@ -148,27 +148,27 @@ FineSolution solve(const pleat_api& api, const FineSquare& square, const std::fu
   return solution;
 }
 
-std::vector<float> read_fine(const std::filesystem::path& folder, const FineSquare& square) {
-  const std::string name = file_of(folder, square).string();
-  std::ifstream stream(name, std::ios::binary);
-  if (!stream) throw demo::InputError(name, "cannot be read; `surface_error --regenerate` makes it anew");
+std::vector<float> read_fine(const std::filesystem::path& folder, const std::string& name) {
+  const std::string path = file_of(folder, name).string();
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw demo::InputError(path, "cannot be read; the option --regenerate makes it anew");
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   std::vector<float> positions(3 * size_t{kFineSide} * kFineSide);
   const size_t expected = positions.size() * sizeof(float);
   if (bytes.size() != expected) {
-    throw demo::InputError(name,
+    throw demo::InputError(path,
                            "should hold " + std::to_string(expected) + " bytes, holds " + std::to_string(bytes.size()));
   }
   std::memcpy(positions.data(), bytes.data(), bytes.size());
   const auto bad = std::ranges::find_if(positions, [](float x) { return !std::isfinite(x); });
   if (bad != positions.end()) {
-    throw demo::InputError(name, "particle " + std::to_string((bad - positions.begin()) / 3) + " is not finite");
+    throw demo::InputError(path, "particle " + std::to_string((bad - positions.begin()) / 3) + " is not finite");
   }
   return positions;
 }
 
-void write_fine(const std::filesystem::path& folder, const FineSquare& square, const std::vector<float>& positions) {
-  demo::OutputFile file(file_of(folder, square));
+void write_fine(const std::filesystem::path& folder, const std::string& name, const std::vector<float>& positions) {
+  demo::OutputFile file(file_of(folder, name));
   file.commit({reinterpret_cast<const char*>(positions.data()), positions.size() * sizeof(float)});
 }
 

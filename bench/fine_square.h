@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "demo/scenes/triangle_mesh.h"
@@ -34,9 +35,9 @@ struct FineSolution {
 FineSolution solve(const pleat_api& api, const FineSquare& square, const std::function<void()>& step);
 inline constexpr uint32_t kSolveSteps = 1800;
 
-/// A solution as it is kept: 32-bit little-endian floats. Throw InputError, naming the file, where it cannot be read or
-/// written, is not of the right length, or holds what is not finite.
-std::vector<float> read_fine(const std::filesystem::path& folder, const FineSquare& square);
-void write_fine(const std::filesystem::path& folder, const FineSquare& square, const std::vector<float>& positions);
+/// A solution as it is kept in the file `NAME.f32`: 32-bit little-endian floats. Throw InputError, naming the file,
+/// where it cannot be read or written, is not of the right length, or holds what is not finite.
+std::vector<float> read_fine(const std::filesystem::path& folder, const std::string& name);
+void write_fine(const std::filesystem::path& folder, const std::string& name, const std::vector<float>& positions);
 
 }  // namespace pleat::bench

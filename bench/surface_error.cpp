@@ -31,7 +31,7 @@ void regenerate(const pleat_api& api, const std::filesystem::path& folder) {
       demo::Progress progress(std::string("solving ") + square.name + ", step", kSolveSteps);
       solution = solve(api, square, [&] { progress.step(); });
     }
-    write_fine(folder, square, solution.positions);
+    write_fine(folder, square.name, solution.positions);
     std::printf("%-12s moved by at most %.2g mm in the last half second\n", square.name, 1e3 * solution.motion);
   }
 }

@@ -40,7 +40,7 @@ demo::Vector3d on_saddle(double x, double z) { return {x, 0.8 * x * z, z}; }
 
 std::vector<SurfaceTruth> surface_truths(const std::filesystem::path& folder) {
   std::vector<SurfaceTruth> truths;
-  for (const FineSquare& square : kFineSquares) truths.push_back({square.name, read_fine(folder, square), true});
+  for (const FineSquare& square : kFineSquares) truths.push_back({square.name, read_fine(folder, square.name), true});
   truths.push_back({"cylinder", sample(on_cylinder), true});
   truths.push_back({"sphere", sample(on_sphere), false});
   truths.push_back({"saddle", sample(on_saddle), false});

@@ -1,6 +1,8 @@
 #include "bench/stability/heat_map.h"
 
-#include <cstdio>
+#include <algorithm>
+
+#include "bench/svg.h"
 
 namespace pleat::bench {
 namespace {
@@ -16,24 +18,6 @@ const char* colour_of(const CellResult& cell) {
   return kColours[cell.fate == Fate::kBelow10 && cell.final_strain < 0.01 ? 0 : 1 + size_t(cell.fate)];
 }
 
-template <class... Values>
-void add(std::string& svg, const char* format, Values... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, format, values...);
-  svg += line;
-}
-
-void text(std::string& svg, int x, int y, const std::string& words, const char* anchor = "start") {
-  add(svg, "<text x=\"%d\" y=\"%d\" text-anchor=\"%s\">", x, y, anchor);
-  svg += words + "</text>\n";
-}
-
-std::string number(const char* format, double value) {
-  char word[40];
-  std::snprintf(word, sizeof word, format, value);
-  return word;
-}
-
 }  // namespace
 
 std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> results,
@@ -43,20 +27,17 @@ std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> resu
   const int band = int(grid.gravity.size()) * block_height + kTitle;
   const int width = std::max(kLeft + int(grid.mass_ratio.size()) * block_width, 660);
   const int height = kTop + int(grid.integrators.size()) * band + 8;
-  std::string svg;
-  add(svg,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" "
-      "font-size=\"10\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-      width, height);
-  text(svg, 8, 16,
-       "Largest elongation of an edge after " + number("%g", grid.seconds) + " s. In each block: stiffness " +
-           number("%g", grid.stiffness.front()) + " to " + number("%g", grid.stiffness.back()) + " N/m to the right,");
-  text(svg, 8, 30,
-       "tick 1/" + number("%g", grid.rate.front()) + " to 1/" + number("%g", grid.rate.back()) +
-           " s downwards. Blocks: hem weight to the right, gravity downwards.");
+  Svg svg(width, height);
+  svg.text(8, 16,
+           "Largest elongation of an edge after " + number("%g", grid.seconds) + " s. In each block: stiffness " +
+               number("%g", grid.stiffness.front()) + " to " + number("%g", grid.stiffness.back()) +
+               " N/m to the right,");
+  svg.text(8, 30,
+           "tick 1/" + number("%g", grid.rate.front()) + " to 1/" + number("%g", grid.rate.back()) +
+               " s downwards. Blocks: hem weight to the right, gravity downwards.");
   for (int k = 0; k < 7; ++k) {
-    add(svg, "<rect x=\"%d\" y=\"38\" width=\"9\" height=\"9\" fill=\"%s\"/>", 8 + 92 * k, kColours[k]);
-    text(svg, 20 + 92 * k, 46, kLegend[k]);
+    svg.add("<rect x=\"%d\" y=\"38\" width=\"9\" height=\"9\" fill=\"%s\"/>", 8 + 92 * k, kColours[k]);
+    svg.text(20 + 92 * k, 46, kLegend[k]);
   }
   for (size_t index = 0; index < results.size(); ++index) {
     size_t rest = index;
@@ -69,15 +50,15 @@ std::string heat_map(const StabilityGrid& grid, std::span<const CellResult> resu
     const int block = next(grid.mass_ratio.size()), line = next(grid.gravity.size()), integrator = int(rest);
     const int x = kLeft + block * block_width, y = kTop + integrator * band + kTitle + line * block_height;
     if (column == 0 && row == 0) {
-      if (line == 0) text(svg, x, y - 4, number("hem x %g", grid.mass_ratio[size_t(block)]));
-      if (block == 0) text(svg, kLeft - 6, y + 10, number("gravity x %g", grid.gravity[size_t(line)]), "end");
+      if (line == 0) svg.text(x, y - 4, number("hem x %g", grid.mass_ratio[size_t(block)]));
+      if (block == 0) svg.text(kLeft - 6, y + 10, number("gravity x %g", grid.gravity[size_t(line)]), "end");
       if (block == 0 && line == 0)
-        text(svg, 8, y - 16, "<tspan font-weight=\"bold\">" + names[size_t(integrator)] + "</tspan>");
+        svg.text(8, y - 16, "<tspan font-weight=\"bold\">" + names[size_t(integrator)] + "</tspan>");
     }
-    add(svg, "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + column * kCell, y + row * kCell,
-        kCell - 1, kCell - 1, colour_of(results[index]));
+    svg.add("<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", x + column * kCell, y + row * kCell,
+            kCell - 1, kCell - 1, colour_of(results[index]));
   }
-  return svg + "</svg>\n";
+  return svg.finish();
 }
 
 }  // namespace pleat::bench

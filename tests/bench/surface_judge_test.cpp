@@ -75,10 +75,9 @@ TEST(SurfaceJudge, PleatFollowsTheHangingSquares) {
 TEST(FineSquare, BadFilesAreNamed) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fine_square_test";
   std::filesystem::create_directories(folder);
-  const FineSquare& square = kFineSquares[0];
   const auto complaint = [&]() -> std::string {
     try {
-      read_fine(folder, square);
+      read_fine(folder, "w0.6");
     } catch (const demo::InputError& error) {
       return error.what();
     }
@@ -88,13 +87,13 @@ TEST(FineSquare, BadFilesAreNamed) {
   EXPECT_NE(complaint().find("w0.6.f32: cannot be read"), std::string::npos);
 
   std::vector<float> positions(3 * size_t{kFineSide} * kFineSide, 0.25f);
-  write_fine(folder, square, positions);
-  EXPECT_EQ(read_fine(folder, square), positions);
+  write_fine(folder, "w0.6", positions);
+  EXPECT_EQ(read_fine(folder, "w0.6"), positions);
   positions[3 * 7 + 1] = std::numeric_limits<float>::quiet_NaN();
-  write_fine(folder, square, positions);
+  write_fine(folder, "w0.6", positions);
   EXPECT_NE(complaint().find("particle 7 is not finite"), std::string::npos);
   positions.pop_back();
-  write_fine(folder, square, positions);
+  write_fine(folder, "w0.6", positions);
   EXPECT_NE(complaint().find("should hold 50700 bytes, holds 50696"), std::string::npos);
   std::filesystem::remove_all(folder);
 }

@@ -1,0 +1,157 @@
+// The program `error_vs_time`: how far from the truth cloth comes to rest, for what it costs a frame.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/error/dominant.h"
+#include "bench/error/scoreboard.h"
+#include "bench/fine_square.h"
+#include "bench/machine.h"
+#include "demo/program/entry.h"
+#include "demo/program/output.h"
+#include "demo/program/progress.h"
+#include "demo/scenes/settings.h"
+
+namespace {
+
+using namespace pleat::bench;
+namespace demo = pleat::demo;
+
+/// A scene to compete in, its truth, and our settings there.
+struct Arena {
+  const RestScene* scene;
+  Reference reference;
+  pleat_cloth_settings settings;
+};
+
+/// Solves the scenes' references anew and says how far they came to rest, and what shorter steps would change.
+void regenerate(const pleat_api& api, const std::filesystem::path& folder,
+                const std::vector<const RestScene*>& scenes) {
+  for (const RestScene* scene : scenes) {
+    ReferenceSolution solution;
+    {
+      constexpr uint32_t kSteps = 1000;
+      demo::Progress progress("solving " + std::string(scene->name) + ", per mille", kSteps);
+      uint32_t shown = 0;
+      solution = solve_reference(api, *scene, [&](double share) {
+        for (; shown < uint32_t(share * kSteps); ++shown) progress.step();
+      });
+    }
+    write_reference(folder, *scene, solution.reference);
+    std::printf("%-12s moved by at most %.2g mm in the last quarter second; steps half as long: RMS %.2g mm\n",
+                std::string(scene->name).c_str(), 1e3 * solution.motion, 1e3 * solution.step_rms);
+  }
+}
+
+std::vector<Arena> arenas(const pleat_api& api, const std::filesystem::path& folder,
+                          const std::vector<const RestScene*>& scenes, const std::vector<std::string>& changes) {
+  std::vector<Arena> all;
+  for (const RestScene* scene : scenes) {
+    all.push_back({scene, read_reference(folder, *scene), rest_settings(api, *scene)});
+    for (const std::string& change : changes) demo::apply_option(change, all.back().settings);
+  }
+  return all;
+}
+
+std::vector<SceneScores> compete(const pleat_api& api, const std::vector<Arena>& all, bool quick) {
+  std::vector<std::vector<Contestants>> fields;
+  size_t total = 0;
+  for (const Arena& arena : all) {
+    fields.push_back(contestants(api, *arena.scene, arena.settings, quick));
+    total += fields.back().size();
+  }
+  demo::Progress progress("coming to rest, contestant", uint32_t(total));
+  std::vector<SceneScores> scores;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const auto& [scene, reference, settings] = all[i];
+    const SurfaceDistance halving =
+        surface_distance(reference_surface(api, reference.half), reference_surface(api, reference.fine));
+    scores.push_back(
+        {scene, halving, hold_contest(api, *scene, reference, fields[i], quick, [&] { progress.step(); })});
+  }
+  return scores;
+}
+
+/// Where the error comes from, at 66, 264 and 1056 particles; with `quick` at the first of these.
+nlohmann::ordered_json blame(const pleat_api& api, const std::vector<Arena>& all, bool quick) {
+  const size_t last = quick ? 2 : 4;
+  std::vector<std::vector<Blame>> blames;
+  {
+    demo::Progress progress("swapping parts, density", uint32_t(all.size() * (last - 1)));
+    for (const auto& [scene, reference, settings] : all) {
+      std::vector<Blame>& of_grids = blames.emplace_back();
+      for (size_t i = 1; i < last; ++i) {
+        of_grids.push_back(blame_parts(api, *scene, settings, reference, scene->coarse[i]));
+        progress.step();
+      }
+    }
+  }
+  nlohmann::ordered_json figures;
+  for (size_t i = 0; i < all.size(); ++i) {
+    print_blame(*all[i].scene, blames[i]);
+    figures[std::string(all[i].scene->name)] = blame_json(blames[i]);
+  }
+  return figures;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "How far from the truth cloth comes to rest, for what a frame costs: on scenes that come to rest in one way "
+      "only,\n"
+      "our surfaces, integrators and densities, the same drawn flat and finer, and Bullet's soft body, in turn.",
+      "error_vs_time");
+  bool quick = false, again = false, dominant = false;
+  std::vector<std::string> words, known, changes;
+  for (const RestScene& scene : rest_scenes()) known.emplace_back(scene.name);
+  std::filesystem::path folder = PLEAT_FINE_DIR, json_path, svg_path;
+  app.add_flag("--quick", quick, "three densities and fewer methods");
+  app.add_option("--scene", words, "only this one; may be repeated")->type_name("NAME")->check(CLI::IsMember(known));
+  auto* dominant_flag =
+      app.add_flag("--dominant", dominant, "instead, where pleat's error comes from: one part at a time made perfect");
+  app.add_option("--svg", svg_path, "draw the curves")->type_name("FILE")->excludes(dominant_flag);
+  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
+  app.add_option("--set", changes, "a setting of our cloths, see `pleat list`")->type_name("KEY=VALUE");
+  app.add_option("--fine", folder, "where the references are")->type_name("DIR")->capture_default_str();
+  app.add_flag("--regenerate", again, "compute the references anew and keep them there, no more");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : demo::kBadInput;
+  }
+
+  const pleat_api& api = demo::library();
+  std::vector<const RestScene*> scenes;
+  for (const RestScene& scene : rest_scenes()) {
+    if (words.empty() || std::ranges::find(words, scene.name) != words.end()) scenes.push_back(&scene);
+  }
+  if (again) {
+    regenerate(api, folder, scenes);
+    return 0;
+  }
+  std::optional<demo::OutputFile> json, svg;
+  if (!json_path.empty()) json.emplace(json_path);
+  if (!svg_path.empty()) svg.emplace(svg_path);
+  const std::vector<Arena> all = arenas(api, folder, scenes, changes);
+  nlohmann::ordered_json figures = {{"quick", quick}, {"set", changes}};
+  if (dominant) {
+    figures["dominant"] = blame(api, all, quick);
+  } else {
+    const std::vector<SceneScores> scores = compete(api, all, quick);
+    print_scores(scores);
+    if (svg) svg->commit(draw_scores(scores));
+    figures["scenes"] = scores_json(scores);
+  }
+  figures["machine"] = describe_machine(api);
+  if (json) json->commit(figures.dump(2) + "\n");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return demo::run_main("error_vs_time", [=] { return run_program(argc, argv); });
+}
