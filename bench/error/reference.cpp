@@ -37,7 +37,9 @@ pleat_cloth_settings fine_settings(const pleat_api& api, const RestScene& scene)
   pleat_cloth_settings s = rest_settings(api, scene);
   s.substeps = kSubsteps;
   s.sweeps = 1;
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
   s.stiffness = kSpring;
+  s.buckling_strain = 1.0f;
   s.stretch_limit = 1.0f;
   s.edge_damping = 40.0f;
   s.bend_damping = 40.0f;

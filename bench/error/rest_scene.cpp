@@ -18,7 +18,7 @@ constexpr float kAirDamping = 4.0f;  // 1/s
 
 constexpr std::array<Grid, 4> kSquares = {{{6, 6}, {8, 8}, {16, 16}, {32, 32}}};
 constexpr std::array<Grid, 4> kStrips = {{{3, 11}, {4, 17}, {8, 33}, {16, 65}}};  // with a line in the middle
-constexpr Grid kFineSquareGrid = {129, 129}, kFineStripGrid = {33, 129}, kFinerStripGrid = {65, 257};
+constexpr Grid kFineSquareGrid = {65, 65}, kFinestSquareGrid = {129, 129}, kFineStripGrid = {33, 129};
 
 bool at_corner(double u, double v) { return (u == 0.0 || u == 1.0) && (v == 0.0 || v == 1.0); }
 
@@ -31,7 +31,7 @@ Vector3d on_cylinder(double u, double v) {
 }
 
 const RestScene kScenes[] = {
-    {"two_corners", "square hung from two corners, 1 m apart", 1.0f, 1.0f, kSoft, kSquares, kFineSquareGrid,
+    {"two_corners", "square hung from two corners, 1 m apart", 1.0f, 1.0f, kSoft, kSquares, kFinestSquareGrid,
      [](double u, double v) { return (u == 0.0 || u == 1.0) && v == 0.0; },
      [](double u, double v) { return Vector3d(u - 0.5, -v, 0.01 * std::sin(kPi * v)); }, std::nullopt},
     {"bowl", "square hung from four corners, .9 m apart", 1.0f, 1.0f, kMiddling, kSquares, kFineSquareGrid, at_corner,
@@ -43,7 +43,7 @@ const RestScene kScenes[] = {
     {"cylinder", "square pinned along the crest of a cylinder, radius .2 m", 1.0f, 1.0f, kSoft, kSquares,
      kFineSquareGrid, [](double u, double) { return u == 0.0; }, on_cylinder,
      demo::CapsulePose{{0.0f, 0.0f, -2.0f}, {0.0f, 0.0f, 2.0f}, float(kRadius)}},
-    {"strip", "stiff strip held by its middle line", 1.0f, 0.25f, kStiff, kStrips, kFinerStripGrid,
+    {"strip", "stiff strip held by its middle line", 1.0f, 0.25f, kStiff, kStrips, kFineStripGrid,
      [](double u, double) { return u == 0.5; },
      [](double u, double v) { return Vector3d(0.8 * (u - 0.5), -0.6 * std::abs(u - 0.5), 0.25 * (v - 0.5)); },
      std::nullopt},
