@@ -34,7 +34,7 @@ const RestScene kScenes[] = {
     {"two_corners", "square hung from two corners, 1 m apart", 1.0f, 1.0f, kSoft, kSquares, kFinestSquareGrid,
      [](double u, double v) { return (u == 0.0 || u == 1.0) && v == 0.0; },
      [](double u, double v) { return Vector3d(u - 0.5, -v, 0.01 * std::sin(kPi * v)); }, std::nullopt},
-    {"bowl", "square hung from four corners, .9 m apart", 1.0f, 1.0f, kMiddling, kSquares, kFineSquareGrid, at_corner,
+    {"bowl", "square hung from four corners, .9 m apart", 1.0f, 1.0f, kMiddling, kSquares, kFinestSquareGrid, at_corner,
      [](double u, double v) {
        const double sag = 1.0 - (1.0 - std::sin(kPi * u)) * (1.0 - std::sin(kPi * v));
        return Vector3d(0.9 * (u - 0.5), -0.2 * sag, 0.9 * (v - 0.5));
