@@ -24,7 +24,16 @@ bool at_corner(double u, double v) { return (u == 0.0 || u == 1.0) && (v == 0.0 
 
 constexpr double kReach = kRadius + kThickness, kWrapped = 0.5 * kPi * kReach;  // of the sheet's width, 1 m
 
-/// Along the crest, around the cylinder and straight down.
+/// From the crest around a wider cylinder that touches this one there, then straight down: so wide that few particles,
+/// too, begin nearly outside and are not thrown over to the other side.
+Vector3d around_cylinder(double u, double v) {
+  constexpr double kWider = 1.6 * kReach;
+  const double angle = std::min(u / kWider, 0.5 * kPi);
+  return {kWider * std::sin(angle), kReach - kWider + kWider * std::cos(angle) - std::max(0.0, u - 0.5 * kPi * kWider),
+          v - 0.5};
+}
+
+/// Where the wrapped part lies on it.
 Vector3d on_cylinder(double u, double v) {
   const double angle = std::min(u / kReach, 0.5 * kPi);
   return {kReach * std::sin(angle), kReach * std::cos(angle) - std::max(0.0, u - kWrapped), v - 0.5};
@@ -41,7 +50,7 @@ const RestScene kScenes[] = {
      },
      std::nullopt},
     {"cylinder", "square pinned along the crest of a cylinder, radius .2 m", 1.0f, 1.0f, kSoft, kSquares,
-     kFineSquareGrid, [](double u, double) { return u == 0.0; }, on_cylinder,
+     kFineSquareGrid, [](double u, double) { return u == 0.0; }, around_cylinder,
      demo::CapsulePose{{0.0f, 0.0f, -2.0f}, {0.0f, 0.0f, 2.0f}, float(kRadius)}},
     {"strip", "stiff strip held by its middle line", 1.0f, 0.25f, kStiff, kStrips, kFineStripGrid,
      [](double u, double) { return u == 0.5; },
@@ -90,6 +99,7 @@ RestScene held_on_body(const RestScene& scene) {
   RestScene held = scene;
   held.body.reset();
   held.pinned = [](double u, double) { return u <= kWrapped; };
+  held.start = on_cylinder;
   return held;
 }
 
