@@ -60,6 +60,16 @@ inline RigidPose interpolate(const RigidPose& p, const RigidPose& q, float t) {
   return {p.position + (q.position - p.position) * t, slerp(p.rotation, q.rotation, t)};
 }
 
+/// Carries points of the world: a turn about `from`, which is brought to `to`.
+struct RigidMotion {
+  Vec3 from, to;  // m
+  Quaternion rotation;
+
+  Vec3 apply(const Vec3& p) const { return to + rotate(rotation, p - from); }
+  /// This one first.
+  RigidMotion then(const RigidMotion& next) const { return {from, next.apply(to), next.rotation * rotation}; }
+};
+
 /// How a rigid body gets from one pose to another.
 struct RigidStep {
   Vec3 origin;      // at the end, m

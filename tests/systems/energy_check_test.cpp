@@ -1,0 +1,103 @@
+#include "systems/energy_check.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/systems/sheet.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::uint32_t kPins[] = {0};
+
+struct EnergyCheckTest : testing::Test {
+  Sheet sheet{make_grid({.rows = 3, .columns = 3}), kPins};
+  CapsuleColumns capsules{std::pmr::new_delete_resource()};
+  Vec3Column pin_from{std::pmr::new_delete_resource()}, pin_to{std::pmr::new_delete_resource()};
+
+  EnergyCheckTest() { pin_from.resize(1), pin_to.resize(1); }
+  SpeedBound bound() {
+    return {.garment = &sheet.garment,
+            .start = sheet.position,
+            .mass = sheet.mass,
+            .inverse_mass = sheet.inverse_mass,
+            .pin_previous = pin_from.view(),
+            .pin_next = pin_to.view(),
+            .capsules = &capsules,
+            .meshes = {},
+            .planes = {},
+            .room = 1e6f,
+            .dt = 0.02f,
+            .substep = 0.002f};
+  }
+};
+
+TEST_F(EnergyCheckTest, RefusesToRunWithAFieldMissing) {
+  ASSERT_TRUE(bound().validate());
+  SpeedBound bad = bound();
+  bad.garment = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.start = {};
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.mass = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.inverse_mass = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.pin_next = {};
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.capsules = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.substep = 0.0f;
+  EXPECT_FALSE(bad.validate());
+  bad = bound(), bad.start_speed = kNan;
+  EXPECT_FALSE(bad.validate());
+}
+
+TEST_F(EnergyCheckTest, SpeedIsWeightedByMassAndLeavesPinsOut) {
+  const auto speed = [&] { return rms_speed(sheet.count, sheet.mass, sheet.inverse_mass, sheet.velocity); };
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.velocity.set(i, {3, 0, 4});
+  sheet.velocity.set(0, {1000, 0, 0});  // the pin
+  EXPECT_FLOAT_EQ(speed(), 5.0f);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.velocity.set(i, {});
+  sheet.velocity.set(4, {2, 0, 0});
+  float moving = 0.0f;
+  for (std::uint32_t i = 1; i < sheet.count; ++i) moving += sheet.mass[i];
+  EXPECT_FLOAT_EQ(speed(), 2.0f * std::sqrt(sheet.mass[4] / moving));
+  sheet.velocity.set(4, {kNan, 0, 0});
+  EXPECT_FALSE(std::isfinite(speed()));
+}
+
+TEST_F(EnergyCheckTest, EachSourceAddsTwiceTheSpeedThatItCanGive) {
+  EXPECT_FLOAT_EQ(bound().run(), 1.0f);
+  SpeedBound b = bound();
+  b.start_speed = 3.0f;
+  EXPECT_FLOAT_EQ(b.run(), 7.0f);
+  b = bound(), b.gravity = 10.0f;
+  EXPECT_FLOAT_EQ(b.run(), 1.4f);
+  EXPECT_FLOAT_EQ(b.least(), 1.4f);
+  b = bound(), b.wind = 20.0f;
+  EXPECT_FLOAT_EQ(b.run(), 41.0f);
+  pin_to.view().set(0, {0, 0.1f, 0});  // 5 m/s
+  EXPECT_FLOAT_EQ(bound().run(), 11.0f);
+  pin_to.view().set(0, {});
+  for (Vec3Column* column : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
+    column->resize(1);
+  }
+  capsules.enabled.resize(1);
+  capsules.next_b.view().set(0, {0.3f, 0, 0.4f});  // 25 m/s
+  EXPECT_FLOAT_EQ(bound().run(), 51.0f);
+}
+
+TEST_F(EnergyCheckTest, WhatIsStretchedIsExpectedToSnapBack) {
+  sheet.position.set(8, sheet.position[8] + Vec3{0.25f, 0, 0});
+  EXPECT_NEAR(bound().run(), 1.0f + 2.0f * 0.25f / 0.002f, 1.0f) << "by the strain limit";
+  SpeedBound springs = bound();
+  springs.substep = 1e9f;
+  springs.stiffness = 1e3f;
+  const float soft = springs.run();
+  EXPECT_GT(soft, 10.0f) << "by its springs";
+  springs.room = 1.0f;  // of which a step carries little
+  EXPECT_LT(springs.run(), soft / 10.0f);
+}
+
+}  // namespace
+}  // namespace pleat
