@@ -1,6 +1,8 @@
 // The moving state of all cloths' particles, one flat column per quantity; a cloth owns a range of them.
 #pragma once
 
+#include <array>
+
 #include "components/column.h"
 
 namespace pleat {
@@ -11,11 +13,24 @@ struct ParticleColumns {
   Vec3Column force;            // N, summed anew for each evaluation
   Vec3Column previous;         // m, position when the substep began
   Vec3Column predicted;        // m, position right after integration, before any constraint moved it
+  Vec3Column start;            // m, position when the tick began
+  Vec3Column start_velocity;   // m/s, the same of the velocity
   Column<float> inverse_mass;  // 1/kg, 0 for pinned and padding particles
   Column<float> mass;          // kg, the true one for pinned particles too
 
   explicit ParticleColumns(std::pmr::memory_resource* m)
-      : position(m), velocity(m), force(m), previous(m), predicted(m), inverse_mass(m), mass(m) {}
+      : position(m),
+        velocity(m),
+        force(m),
+        previous(m),
+        predicted(m),
+        start(m),
+        start_velocity(m),
+        inverse_mass(m),
+        mass(m) {}
+  std::array<Vec3Column*, 7> vectors() {
+    return {&position, &velocity, &force, &previous, &predicted, &start, &start_velocity};
+  }
 };
 
 /// What a pass over edges needs of a particle, for one load and one store: position, m, and inverse mass, 1/kg.

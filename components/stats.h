@@ -13,6 +13,9 @@ struct Stats {
   std::uint64_t edges_skipped = 0;       // met by the strain limit while shorter than 1e-9 m
   std::uint64_t fast_bodies = 0;         // ticks of a cloth in which a body outran the substeps
   std::uint64_t stiffness_lowered = 0;   // ticks of a cloth stiffer than its substeps could carry
+  std::uint64_t teleports = 0;           // ticks of a cloth whose pins jumped
+  std::uint64_t rollbacks = 0;           // ticks of a cloth that began anew
+  std::uint64_t fallbacks = 0;           // of these, ticks without a good end
   std::uint64_t nonfinite_restored = 0;  // particles put back to where they were finite
 };
 

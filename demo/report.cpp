@@ -26,6 +26,9 @@ void print_events(const pleat_stats& stats) {
                 {"edges skipped", stats.edges_skipped},
                 {"bodies faster than substeps", stats.fast_bodies},
                 {"ticks with stiffness lowered", stats.stiffness_lowered},
+                {"teleports", stats.teleports},
+                {"ticks begun anew", stats.rollbacks},
+                {"ticks without a good end", stats.fallbacks},
                 {"non-finite values put back", stats.nonfinite_restored}};
   for (const auto& [what, count] : events) {
     if (count > 0) std::printf("event         %s: %llu\n", what, static_cast<unsigned long long>(count));

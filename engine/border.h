@@ -73,6 +73,24 @@ inline void need_finite(const char* name, const float v[3]) {
   }
 }
 
+/// Beyond it single precision no longer tells millimetres apart by far.
+inline constexpr float kFarthest = 1e6f;  // m
+
+inline Vec3 need_place(const char* name, const float v[3]) {
+  need_finite(name, v);
+  for (int k = 0; k < 3; ++k) need_range(name, v[k], -kFarthest, kFarthest);
+  return {v[0], v[1], v[2]};
+}
+
+inline Quaternion need_rotation(const char* name, const float q[4]) {
+  need_pointer(name, q);
+  const float length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(std::abs(length - 1.0f) <= 0.01f)) {  // also false for NaN
+    refuse(std::string(name) + " has the length " + text(length) + ", must be a unit quaternion");
+  }
+  return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
 /// Strided vectors as the host gives them.
 class HostVectors {
  public:
@@ -87,8 +105,7 @@ class HostVectors {
       for (std::size_t k = 0; k < width; ++k) {
         float value;
         std::memcpy(&value, data_ + i * stride_ + k * sizeof(float), sizeof value);
-        // Beyond 10^6 m single precision no longer tells millimetres apart by far.
-        if (!(std::abs(value) <= 1e6f)) {
+        if (!(std::abs(value) <= kFarthest)) {
           refuse(std::string(name) + "[" + std::to_string(i) + "][" + std::to_string(k) + "] is " + text(value));
         }
       }

@@ -54,6 +54,7 @@ pleat_result cloth_info(const pleat_world*, pleat_cloth, pleat_cloth_info*);
 pleat_result cloth_move_pins(pleat_world*, pleat_cloth, const float*, uint32_t, uint32_t);
 pleat_result cloth_read_particles(const pleat_world*, pleat_cloth, float*, float*, uint32_t);
 pleat_result cloth_write_particles(pleat_world*, pleat_cloth, const float*, const float*, uint32_t);
+pleat_result cloth_teleport(pleat_world*, pleat_cloth, const float[3], const float[3], const float[4]);
 
 // drawn_calls.cpp
 pleat_result vertex_target_init(pleat_vertex_target*, size_t);

@@ -36,7 +36,8 @@ const pleat_cloth_def& default_cloth() {
                   .self_distance = 0.0f,
                   .tangents = 0,
                   .layer = 0,
-                  .buckling_strain = 0.01f};
+                  .buckling_strain = 0.01f,
+                  .teleport_speed = 50.0f};
     return d;
   }();
   return def;
@@ -68,6 +69,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("layer", s.layer, 0, 15);
   need_range("buckling_strain", s.buckling_strain, 0, 1);
   need_compiled(kHasCollision || s.layer == 0, "layer", "PLEAT_COLLISION");
+  need_range("teleport_speed", s.teleport_speed, 0, 1e9);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 
@@ -219,9 +221,21 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
       world.particles.velocity.view().set(record.particle_begin + i, velocities != nullptr ? v[i] : Vec3{});
     }
     move_pins_to_particles(world, record);
+    record.pin_velocity = {};
+    record.declared_jump.reset();
     record.self_pair_count = kNone;
     forget_layer_pairs(world);
     refresh(world, record);
+  });
+}
+
+pleat_result cloth_teleport(pleat_world* handle, pleat_cloth cloth, const float from[3], const float to[3],
+                            const float rotation[4]) {
+  return guarded(as_world(handle), "cloth_teleport", [&] {
+    ClothRecord& record = need_cloth(need_world(handle), cloth);
+    const Vec3 begin = need_place("from", from), end = need_place("to", to);
+    const RigidMotion jump{begin, end, rotation != nullptr ? need_rotation("rotation", rotation) : Quaternion{}};
+    record.declared_jump = record.declared_jump ? record.declared_jump->then(jump) : jump;
   });
 }
 

@@ -23,13 +23,6 @@ const pleat_collider_def& default_collider() {
 constexpr std::uint32_t kMostBodyTriangles = 2'000'000, kMostHullPoints = 65536;
 constexpr double kMostRadius = 1e4;  // m
 
-Vec3 as_vec3(const float v[3]) { return {v[0], v[1], v[2]}; }
-
-void need_inside(const char* name, const float v[3]) {
-  need_finite(name, v);
-  for (int k = 0; k < 3; ++k) need_range(name, v[k], -1e6, 1e6);
-}
-
 void need_settings(const pleat_collider_settings& s) {
   need_range("friction", s.friction, 0, 10);
   need_range("thickness", s.thickness, 0, 1);
@@ -38,14 +31,8 @@ void need_settings(const pleat_collider_settings& s) {
 }
 
 RigidPose need_pose(const float position[3], const float rotation[4]) {
-  need_inside("position", position);
-  need_pointer("rotation", rotation);
-  const Quaternion q{rotation[0], rotation[1], rotation[2], rotation[3]};
-  const float length = std::sqrt(dot(q, q));
-  if (!(std::abs(length - 1.0f) <= 0.01f)) {  // also false for NaN
-    refuse("rotation has the length " + text(length) + ", must be a unit quaternion");
-  }
-  return {as_vec3(position), {q.x / length, q.y / length, q.z / length, q.w / length}};
+  const Vec3 place = need_place("position", position);
+  return {place, need_rotation("rotation", rotation)};
 }
 
 MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
@@ -75,8 +62,8 @@ MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
 std::pmr::vector<Vec3> read_corners(World& world, const pleat_collider_def& def) {
   std::pmr::vector<Vec3> corners(&world.memory);
   if (def.shape == PLEAT_COLLIDER_BOX) {
-    const Vec3 half = as_vec3(def.half_extents);
     for (const float extent : def.half_extents) need_range("half_extents", extent, 1e-4, kMostRadius);
+    const Vec3 half{def.half_extents[0], def.half_extents[1], def.half_extents[2]};
     for (unsigned k = 0; k < 8; ++k) {
       corners.push_back({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z});
     }
@@ -99,13 +86,10 @@ MeshCollider read_hull(World& world, const pleat_collider_def& def) {
 Handle add_collider(World& world, const pleat_collider_def& def) {
   switch (def.shape) {
     case PLEAT_COLLIDER_SPHERE:
-      need_inside("a", def.a);
-      return add_capsule(world, def.shape, as_vec3(def.a), as_vec3(def.a));
+      return add_capsule(world, def.shape, need_place("a", def.a), need_place("a", def.a));
     case PLEAT_COLLIDER_CAPSULE:
     case PLEAT_COLLIDER_TAPERED_CAPSULE:
-      need_inside("a", def.a);
-      need_inside("b", def.b);
-      return add_capsule(world, def.shape, as_vec3(def.a), as_vec3(def.b));
+      return add_capsule(world, def.shape, need_place("a", def.a), need_place("b", def.b));
     case PLEAT_COLLIDER_PLANE:
       return add_plane(world, need_pose(def.position, def.rotation));
     case PLEAT_COLLIDER_MESH:
@@ -234,10 +218,9 @@ pleat_result collider_move_capsule(pleat_world* handle, [[maybe_unused]] pleat_c
     const ColliderRecord& record = need_collider(world, collider);
     if (record.kind != ColliderKind::kCapsule) refuse("collider is not a capsule or a sphere");
     const float* end = record.shape == PLEAT_COLLIDER_SPHERE ? a : b;
-    need_inside("a", a);
-    need_inside("b", end);
-    world.capsules.next_a.view().set(record.position, as_vec3(a));
-    world.capsules.next_b.view().set(record.position, as_vec3(end));
+    const Vec3 next_a = need_place("a", a), next_b = need_place("b", end);
+    world.capsules.next_a.view().set(record.position, next_a);
+    world.capsules.next_b.view().set(record.position, next_b);
 #endif
   });
 }

@@ -55,6 +55,7 @@ constexpr pleat_api kApi = {
     .cloth_read_indices_16 = call::cloth_read_indices_16,
     .cloth_suggest_level = call::cloth_suggest_level,
     .cloth_contact_report = call::cloth_contact_report,
+    .cloth_teleport = call::cloth_teleport,
 };
 
 }  // namespace

@@ -233,6 +233,9 @@ typedef struct pleat_cloth_settings {
                             default 0: meets no other cloth */
   float buckling_strain; /* compression beyond which an edge yields, as the cloth along it would bulge: from there a
                             tenth of `stiffness` resists; fraction, default 0.01; 1: never, the paper's springs */
+  float teleport_speed; /* m/s. Pins whose mean speed, and its change from tick to tick, are both above it have jumped,
+                           and so have pins that turn by more than 150 degrees in a tick: the cloth is carried along,
+                           see cloth_teleport. Default 50; 0: only jumps that are declared are jumps */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -332,6 +335,12 @@ typedef struct pleat_stats {
   uint64_t self_contacts;      /* of a cloth with itself: rows that pushed, last tick */
   uint64_t stiffness_lowered;  /* ticks of a cloth whose stiffness or bend_stiffness its substeps could not carry: its
                                   stiffest edges or hinges acted as stiff as is stable. The log says so once */
+  uint64_t teleports;          /* ticks of a cloth that carried it along with pins that jumped, declared or found. The
+                                  log says once when one was found */
+  uint64_t rollbacks;          /* ticks of a cloth that began anew with twice the substeps: it had ended not finite, or
+                                  with more energy than anything could have given it */
+  uint64_t fallbacks;          /* of these, ticks for which no number of substeps was enough: the cloth was left as it
+                                  had been, at rest, its pins where they should be. The log says so once */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
@@ -454,6 +463,12 @@ typedef struct pleat_api {
   /* As of the last tick; a body that was moved since counts where it was. Found on this call: not asked for, it costs
    * nothing. report->size says how much of it the caller knows. */
   pleat_result (*cloth_contact_report)(const pleat_world* world, pleat_cloth cloth, pleat_contact_report* report);
+  /* The character jumps: when the next tick begins the cloth is carried rigidly, turned by rotation (x, y, z, w; null:
+   * not) about `from`, which is brought to `to`, m. It keeps its shape and turns its velocities. Pins that are not
+   * moved for that tick come along, and so do the previous poses of bodies that this brings nearer to their next ones:
+   * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. */
+  pleat_result (*cloth_teleport)(pleat_world* world, pleat_cloth cloth, const float from[3], const float to[3],
+                                 const float rotation[4]);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

@@ -2,25 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <string>
 
-#include "components/tethers.h"
+#include "engine/cloth_tick.h"
 #include "engine/layers.h"
 #include "engine/room.h"
 #include "engine/schedule_table.h"
 #include "systems/frequency_bound.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
-#include "systems/substep_bound.h"
 #endif
 
 namespace pleat {
 namespace {
-
-constexpr std::uint32_t kMostSubsteps = 64;
-constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
 
 Plan plan_of(const World& world, const ClothRecord& cloth) {
   Plan plan = 0;
@@ -29,128 +23,6 @@ Plan plan_of(const World& world, const ClothRecord& cloth) {
     if (rows[r].left_out(world, cloth) == nullptr) plan |= Plan{1} << r;
   }
   return plan;
-}
-
-void run_phase(ClothTick& t, Phase phase) {
-  const std::span<const Row> rows = schedule_table();
-  const pleat_world_def& host = t.world.def;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (rows[r].phase != phase || (t.cloth.plan >> r & 1) == 0) continue;
-    if (host.stage != nullptr) host.stage(rows[r].name, 1, host.stage_user);
-    rows[r].run(t);
-    if (host.stage != nullptr) host.stage(rows[r].name, 0, host.stage_user);
-  }
-}
-
-void copy(const Vec3View& to, const ConstVec3View& from, std::size_t count) {
-  std::copy_n(from.x, count, to.x);
-  std::copy_n(from.y, count, to.y);
-  std::copy_n(from.z, count, to.z);
-}
-
-void run_substep(ClothTick& t) {
-  const std::size_t n = t.garment.particle_count;
-  run_phase(t, Phase::kSubstepBegin);
-  copy(t.previous, t.position, n);
-  const int stages = t.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? 4 : 1;
-  for (t.stage = 0; t.stage < stages; ++t.stage) {
-    std::fill_n(t.force.x, n, 0.0f);
-    std::fill_n(t.force.y, n, 0.0f);
-    std::fill_n(t.force.z, n, 0.0f);
-    run_phase(t, Phase::kStage);
-  }
-  copy(t.predicted, t.position, n);
-  t.world.contact_count = 0;
-  run_phase(t, Phase::kContact);
-  const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
-  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
-  run_phase(t, Phase::kSubstepEnd);
-}
-
-/// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
-std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
-#ifdef PLEAT_WITH_COLLISION
-  if (t.world.capsules.size() == 0 && t.world.meshes.empty()) return 1;
-  const SubstepBound bound{.particle_count = t.garment.particle_count,
-                           .position = t.position,
-                           .velocity = t.velocity,
-                           .capsules = &t.world.capsules,
-                           .meshes = t.world.mesh_pointers.data(),
-                           .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
-                           .thickness = t.settings.thickness,
-                           .dt = dt};
-  assert(bound.validate());
-  return bound.run();
-#else
-  return 1;
-#endif
-}
-
-StableStep stable_step(const ClothTick& t) {
-  const pleat_cloth_settings& s = t.settings;
-  const bool solved = s.integrator == PLEAT_INTEGRATOR_PROJECTED || s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
-  const bool runge_kutta = s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
-  return {.rates = t.cloth.rates,
-          .scheme = runge_kutta ? Scheme::kRungeKutta4 : Scheme::kEuler,
-          .stiffness = solved ? 0.0f : s.stiffness,
-          .bend_stiffness = s.bend_stiffness,
-          .edge_damping = s.edge_damping,
-          .bend_damping = s.bend_damping,
-          .air_damping = s.air_damping};
-}
-
-void report_lowered(ClothTick& t, std::uint32_t substeps) {
-  ++t.world.stats.stiffness_lowered;
-  if (t.cloth.said_lowered) return;
-  t.cloth.said_lowered = true;
-  t.world.log(PLEAT_LOG_WARNING, "a cloth's stiffness " + std::to_string(t.settings.stiffness) +
-                                     " N/m or bend_stiffness " + std::to_string(t.settings.bend_stiffness) +
-                                     " N m is more than " + std::to_string(substeps) +
-                                     " substeps a tick can carry: its stiffest edges act softer");
-}
-
-std::uint32_t substeps_for(ClothTick& t, float dt) {
-  const std::uint32_t least = substeps_against_tunnelling(t, dt);
-  const StableStep stable = stable_step(t);
-  assert(stable.validate());
-  std::uint32_t n = t.settings.substeps;
-  if (n == 0) {
-    const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
-    const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
-    // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
-    const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
-    n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
-    n = std::clamp(least, n, kMostSubsteps);
-    const std::uint32_t most = std::min(kStiffSubsteps * n, kMostSubsteps);
-    n = std::min(stable.run(dt, n, most), most);
-  }
-  if (n < least) ++t.world.stats.fast_bodies;
-  if (stable.run(dt, n, n) > n) report_lowered(t, n);
-  const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
-  t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable.room(dt / static_cast<float>(n));
-  return n;
-}
-
-void tick_cloth(World& world, ClothRecord& cloth, float dt) {
-  ClothTick t(world, cloth);
-  const Stats before = world.stats;
-  const std::uint32_t n = substeps_for(t, dt);
-  t.dt = dt / static_cast<float>(n);
-  t.frame_dt = dt;
-  world.contact_count = 0;
-  for (std::uint32_t s = 0; s < n; ++s) {
-    t.t0 = static_cast<float>(s) / static_cast<float>(n);
-    t.t1 = static_cast<float>(s + 1) / static_cast<float>(n);
-    t.time = world.time + static_cast<double>(dt) * s / n;
-    run_substep(t);
-  }
-  run_phase(t, Phase::kFrameEnd);
-  cloth.substeps_taken = n;
-  cloth.contacts = {.particle = world.stats.particle_contacts - before.particle_contacts,
-                    .face = world.stats.face_contacts - before.face_contacts,
-                    .self = world.stats.self_contacts - before.self_contacts,
-                    .dropped = world.stats.contacts_dropped - before.contacts_dropped};
-  world.substeps += n;
 }
 
 /// What was next becomes previous: a pin or body that is not moved again stands still.
@@ -184,6 +56,8 @@ void update_bodies([[maybe_unused]] World& world) {
 
 const char* phase_name(Phase phase) {
   switch (phase) {
+    case Phase::kFrameBegin:
+      return "frame begin";
     case Phase::kSubstepBegin:
       return "substep begin";
     case Phase::kStage:
@@ -194,6 +68,8 @@ const char* phase_name(Phase phase) {
       return "sweep";
     case Phase::kSubstepEnd:
       return "substep end";
+    case Phase::kCheck:
+      return "check";
     case Phase::kFrameEnd:
       return "frame end";
   }
@@ -213,6 +89,8 @@ ClothTick::ClothTick(World& w, ClothRecord& c)
       force(w.particles.force.view().from(c.particle_begin)),
       previous(w.particles.previous.view().from(c.particle_begin)),
       predicted(w.particles.predicted.view().from(c.particle_begin)),
+      start(w.particles.start.view().from(c.particle_begin)),
+      start_velocity(w.particles.start_velocity.view().from(c.particle_begin)),
       inverse_mass(w.particles.inverse_mass.data() + c.particle_begin),
       mass(w.particles.mass.data() + c.particle_begin),
       pin_previous(w.pin_previous.view().from(c.pin_begin)),
@@ -259,6 +137,11 @@ void replan(World& world) {
 void tick(World& world, float dt) {
   ++world.ticks;
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = 0;
+  for (ClothRecord& cloth : world.clothes) {
+    ClothTick t(world, cloth);
+    t.frame_dt = dt;
+    run_phase(t, Phase::kFrameBegin);
+  }
   update_bodies(world);
   begin_layers(world);
   const std::uint32_t top = top_layer(world);

@@ -2,11 +2,14 @@
 //
 //   tick                          once, for the world
 //   for each cloth:
+//     frame begin                 cloths whose pins have jumped are carried there
+//   for each cloth:
 //     substep begin               pins and colliders take their places
 //     stage                       forces, then integration; Runge-Kutta repeats it four times
 //     contact                     contact rows at the predicted positions
 //     sweep                       repeated: strain limit and contact converge together
 //     substep end                 contact has the last word; velocities
+//     check                       once the substeps are done; where it fails they begin anew, see cloth_tick.h
 //     frame end                   the drawn surface
 #pragma once
 

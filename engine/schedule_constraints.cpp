@@ -1,6 +1,7 @@
 // Rows from the predicted position to the end of a substep: contact, strain limit, velocities, the guard.
 #include "engine/schedule_row.h"
 #include "systems/elastic_projection.h"
+#include "systems/energy_check.h"
 #include "systems/finite_guard.h"
 #include "systems/stretch_constraint.h"
 #include "systems/tether_constraint.h"
@@ -51,6 +52,32 @@ void respond(ClothTick& t) {
       t.world.stats);
 }
 #endif
+
+void check_energy(ClothTick& t) {
+  const World& w = t.world;
+  const std::size_t n = t.garment.particle_count;
+  const float* g = w.def.gravity;
+  SpeedBound bound{.garment = &t.garment,
+                   .start = t.start,
+                   .mass = t.mass,
+                   .inverse_mass = t.inverse_mass,
+                   .pin_previous = t.pin_previous,
+                   .pin_next = t.pin_next,
+                   .capsules = &w.capsules,
+                   .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
+                   .planes = {w.planes.data(), w.planes.size()},
+                   .start_speed = rms_speed(n, t.mass, t.inverse_mass, t.start_velocity),
+                   .gravity = length(Vec3{g[0], g[1], g[2]}),
+                   .wind = length(t.air),
+                   .stiffness = t.settings.stiffness,
+                   .bend_stiffness = t.settings.bend_stiffness,
+                   .room = t.spring_room,
+                   .dt = t.frame_dt,
+                   .substep = t.dt};
+  assert(bound.validate());
+  const float speed = rms_speed(n, t.mass, t.inverse_mass, t.velocity);
+  if (!(speed <= bound.least()) && !(speed <= bound.run())) t.trouble = true;
+}
 
 constexpr Row kRows[] = {
     // Before contact is looked for, which then is where the springs leave the cloth.
@@ -254,12 +281,15 @@ constexpr Row kRows[] = {
 #endif
     {Phase::kSubstepEnd, "finite_guard", always,
      [](ClothTick& t) {
+       const std::uint64_t before = t.world.stats.nonfinite_restored;
        run(FiniteGuard{.particle_count = t.garment.particle_count,
                        .previous = t.previous,
                        .position = t.position,
                        .velocity = t.velocity},
            t.world.stats);
+       t.trouble = t.trouble || t.world.stats.nonfinite_restored != before;
      }},
+    {Phase::kCheck, "energy_check", always, check_energy},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Rows from the begin of a substep to the integrated position: pins, forces, integration.
+// Rows from the begin of a tick to the integrated position: pins, forces, integration.
 #include "engine/schedule_row.h"
+#include "engine/teleport.h"
 #include "systems/air_damping.h"
 #include "systems/air_drag.h"
 #include "systems/edge_damping.h"
@@ -29,6 +30,7 @@ const char* without_air(const World& w, const ClothRecord& c) {
 }
 
 constexpr Row kRows[] = {
+    {Phase::kFrameBegin, "teleport", always, teleport},
     {Phase::kSubstepBegin, "pin_motion",
      [](const World&, const ClothRecord& c) { return c.garment().pins.size() != 0 ? kNeeded : "no pins"; },
      [](ClothTick& t) {

@@ -9,7 +9,16 @@
 
 namespace pleat {
 
-enum class Phase : std::uint32_t { kSubstepBegin, kStage, kContact, kSweep, kSubstepEnd, kFrameEnd };
+enum class Phase : std::uint32_t {
+  kFrameBegin,
+  kSubstepBegin,
+  kStage,
+  kContact,
+  kSweep,
+  kSubstepEnd,
+  kCheck,
+  kFrameEnd
+};
 
 /// One cloth during one tick: the views of its ranges, and where in the tick it is.
 struct ClothTick {
@@ -23,10 +32,12 @@ struct ClothTick {
   float spring_room = 0.0f;    // 1/s2, the largest omega^2 of springs that the present substep carries
   float frame_dt = 0.0f;       // s, of the tick; 0 when the surface is brought up to date between ticks
   int stage = 0;               // of the integrator
+  bool trouble = false;        // the tick has gone wrong
   double time = 0.0;           // s, when the present substep begins
   Vec3 air;                    // m/s, velocity of the air now
 
   Vec3View position, velocity, force, previous, predicted;
+  Vec3View start, start_velocity;  // as the tick began
   const float* inverse_mass;
   const float* mass;
   ConstVec3View pin_previous, pin_next;

@@ -21,7 +21,7 @@ std::uint32_t range_of(std::size_t count) { return static_cast<std::uint32_t>(pa
 
 void resize_particles(World& world, std::size_t size) {
   ParticleColumns& p = world.particles;
-  for (Vec3Column* column : {&p.position, &p.velocity, &p.force, &p.previous, &p.predicted}) column->resize(size);
+  for (Vec3Column* column : p.vectors()) column->resize(size);
   p.inverse_mass.resize(size);
   p.mass.resize(size);
 }
@@ -198,9 +198,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   const std::uint32_t particles = range_of(g.particle_count), pins = range_of(g.pins.size()),
                       normals = range_of(g.normal_count), edges = range_of(g.edge_count);
   ParticleColumns& p = world.particles;
-  for (Vec3Column* column : {&p.position, &p.velocity, &p.force, &p.previous, &p.predicted}) {
-    column->erase(cloth.particle_begin, particles);
-  }
+  for (Vec3Column* column : p.vectors()) column->erase(cloth.particle_begin, particles);
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
   for (Vec3Column* column :
@@ -255,7 +253,7 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
 std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   const std::uint64_t particle =
-      5 * sizeof(Vec3) + 2 * sizeof(float) + (world.held.size() != 0 ? sizeof(Vec3) : 0) +
+      7 * sizeof(Vec3) + 2 * sizeof(float) + (world.held.size() != 0 ? sizeof(Vec3) : 0) +
       (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
       (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0) +
       (world.layers.pairs.size() != 0 ? 2 * sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);

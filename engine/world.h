@@ -63,6 +63,10 @@ struct ClothRecord {
   Plan plan = 0;
   FrequencyRates rates;       // of these masses
   bool said_lowered = false;  // that stiffness is lowered: once for each setting
+  bool said_jump = false;     // that its pins jumped
+  bool said_fallback = false;
+  Vec3 pin_velocity;                         // m/s, mean of the last tick
+  std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
 
   const Garment& garment() const { return source->garment; }
   /// Null where smoothing is compiled out.

@@ -111,6 +111,9 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.nonfinite_restored = world.stats.nonfinite_restored;
     all.fast_bodies = world.stats.fast_bodies;
     all.stiffness_lowered = world.stats.stiffness_lowered;
+    all.teleports = world.stats.teleports;
+    all.rollbacks = world.stats.rollbacks;
+    all.fallbacks = world.stats.fallbacks;
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();

@@ -17,6 +17,9 @@ struct Counter {
 };
 constexpr Counter kCounters[] = {{"nonfinite_restored", &pleat_stats::nonfinite_restored},
                                  {"stiffness_lowered", &pleat_stats::stiffness_lowered},
+                                 {"teleports", &pleat_stats::teleports},
+                                 {"rollbacks", &pleat_stats::rollbacks},
+                                 {"fallbacks", &pleat_stats::fallbacks},
                                  {"edges_skipped", &pleat_stats::edges_skipped},
                                  {"fast_bodies", &pleat_stats::fast_bodies},
                                  {"contacts_dropped", &pleat_stats::contacts_dropped}};

@@ -47,7 +47,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"self_distance", &S::self_distance},
                               {"tangents", &S::tangents},
                               {"layer", &S::layer},
-                              {"buckling_strain", &S::buckling_strain}};
+                              {"buckling_strain", &S::buckling_strain},
+                              {"teleport_speed", &S::teleport_speed}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

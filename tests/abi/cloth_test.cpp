@@ -60,7 +60,8 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"friction", &S::friction},
                                                        {"inner_friction", &S::inner_friction},
                                                        {"self_distance", &S::self_distance},
-                                                       {"buckling_strain", &S::buckling_strain}};
+                                                       {"buckling_strain", &S::buckling_strain},
+                                                       {"teleport_speed", &S::teleport_speed}};
   for (const auto& [name, field] : floats) {
     for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
   }
@@ -300,6 +301,27 @@ TEST_F(Cloth, TangentsAreWrittenWhereAsked) {
     EXPECT_NEAR(t[0] * n[0] + t[1] * n[1] + t[2] * n[2], 0.0f, 1e-5f);
     EXPECT_EQ(t[3], -1.0f);  // u x v = x cross z points down, the normal up
   }
+}
+
+TEST_F(Cloth, TeleportChecksItsInput) {
+  const float from[3] = {0, 0, 0}, to[3] = {5, 0, 0}, turn[4] = {0, 0.6f, 0, 0.8f}, far[3] = {2e6f, 0, 0};
+  const float nan[3] = {0, kNan, 0}, stretched[4] = {0, 0.6f, 0, 1.8f}, nan_turn[4] = {kNan, 0, 0, 1};
+  const auto refused = [&](const char* field, const float* a, const float* b, const float* r) {
+    expect_refused(PLEAT_ERROR_ARGUMENT, field, [&] { return api().cloth_teleport(world, cloth, a, b, r); });
+  };
+  refused("from", nullptr, to, turn);
+  refused("to", from, nullptr, turn);
+  refused("from", nan, to, turn);
+  refused("to", from, far, turn);
+  refused("rotation", from, to, stretched);
+  refused("rotation", from, to, nan_turn);
+  const pleat_cloth gone{cloth.index, cloth.generation + 1};
+  expect_refused(PLEAT_ERROR_HANDLE, "cloth", [&] { return api().cloth_teleport(world, gone, from, to, turn); });
+  ASSERT_EQ(api().world_step(world, 0.02f), pleat_result{PLEAT_OK});
+  EXPECT_LT(state()[0], 1.0f) << "a refused jump was made";
+  ASSERT_EQ(api().cloth_teleport(world, cloth, from, to, nullptr), pleat_result{PLEAT_OK});
+  ASSERT_EQ(api().world_step(world, 0.02f), pleat_result{PLEAT_OK});
+  EXPECT_NEAR(state()[0], 4.5f, 1e-3f);
 }
 
 TEST_F(Cloth, SuggestedLevelIsChecked) {

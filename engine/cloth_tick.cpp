@@ -1,0 +1,192 @@
+#include "engine/cloth_tick.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "components/tethers.h"
+#include "systems/frequency_bound.h"
+#include "systems/rigid_carry.h"
+#include "systems/rigid_fit.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/substep_bound.h"
+#endif
+
+namespace pleat {
+namespace {
+
+constexpr std::uint32_t kMostSubsteps = 64;
+constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
+constexpr int kRetries = 2;                  // of a tick that went wrong, each with twice the substeps
+
+void run_substep(ClothTick& t) {
+  const std::size_t n = t.garment.particle_count;
+  run_phase(t, Phase::kSubstepBegin);
+  copy(t.previous, t.position, n);
+  const int stages = t.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? 4 : 1;
+  for (t.stage = 0; t.stage < stages; ++t.stage) {
+    std::fill_n(t.force.x, n, 0.0f);
+    std::fill_n(t.force.y, n, 0.0f);
+    std::fill_n(t.force.z, n, 0.0f);
+    run_phase(t, Phase::kStage);
+  }
+  copy(t.predicted, t.position, n);
+  t.world.contact_count = 0;
+  run_phase(t, Phase::kContact);
+  const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
+  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
+  run_phase(t, Phase::kSubstepEnd);
+}
+
+/// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
+std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
+#ifdef PLEAT_WITH_COLLISION
+  if (t.world.capsules.size() == 0 && t.world.meshes.empty()) return 1;
+  const SubstepBound bound{.particle_count = t.garment.particle_count,
+                           .position = t.position,
+                           .velocity = t.velocity,
+                           .capsules = &t.world.capsules,
+                           .meshes = t.world.mesh_pointers.data(),
+                           .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
+                           .thickness = t.settings.thickness,
+                           .dt = dt};
+  assert(bound.validate());
+  return bound.run();
+#else
+  return 1;
+#endif
+}
+
+StableStep stable_step(const ClothTick& t) {
+  const pleat_cloth_settings& s = t.settings;
+  const bool solved = s.integrator == PLEAT_INTEGRATOR_PROJECTED || s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  const bool runge_kutta = s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
+  return {.rates = t.cloth.rates,
+          .scheme = runge_kutta ? Scheme::kRungeKutta4 : Scheme::kEuler,
+          .stiffness = solved ? 0.0f : s.stiffness,
+          .bend_stiffness = s.bend_stiffness,
+          .edge_damping = s.edge_damping,
+          .bend_damping = s.bend_damping,
+          .air_damping = s.air_damping};
+}
+
+void report_lowered(ClothTick& t, std::uint32_t substeps) {
+  ++t.world.stats.stiffness_lowered;
+  if (t.cloth.said_lowered) return;
+  t.cloth.said_lowered = true;
+  t.world.log(PLEAT_LOG_WARNING, "a cloth's stiffness " + std::to_string(t.settings.stiffness) +
+                                     " N/m or bend_stiffness " + std::to_string(t.settings.bend_stiffness) +
+                                     " N m is more than " + std::to_string(substeps) +
+                                     " substeps a tick can carry: its stiffest edges act softer");
+}
+
+std::uint32_t substeps_for(ClothTick& t, float dt) {
+  const std::uint32_t least = substeps_against_tunnelling(t, dt);
+  const StableStep stable = stable_step(t);
+  assert(stable.validate());
+  std::uint32_t n = t.settings.substeps;
+  if (n == 0) {
+    const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+    const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
+    // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
+    const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
+    n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
+    n = std::clamp(least, n, kMostSubsteps);
+    const std::uint32_t most = std::min(kStiffSubsteps * n, kMostSubsteps);
+    n = std::min(stable.run(dt, n, most), most);
+  }
+  if (n < least) ++t.world.stats.fast_bodies;
+  if (stable.run(dt, n, n) > n) report_lowered(t, n);
+  return n;
+}
+
+void run_substeps(ClothTick& t, std::uint32_t n) {
+  const float dt = t.frame_dt;
+  t.dt = dt / static_cast<float>(n);
+  const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable_step(t).room(t.dt);
+  t.trouble = false;
+  t.world.contact_count = 0;
+  for (std::uint32_t s = 0; s < n && !t.trouble; ++s) {
+    t.t0 = static_cast<float>(s) / static_cast<float>(n);
+    t.t1 = static_cast<float>(s + 1) / static_cast<float>(n);
+    t.time = t.world.time + static_cast<double>(dt) * s / n;
+    run_substep(t);
+  }
+  run_phase(t, Phase::kCheck);
+}
+
+void roll_back(ClothTick& t) {
+  const std::size_t n = t.garment.particle_count;
+  copy(t.position, t.start, n);
+  copy(t.velocity, t.start_velocity, n);
+  if (t.world.held.size() != 0) {
+    const Vec3View held = t.world.held.view().from(t.cloth.particle_begin);
+    for (std::size_t i = 0; i < n; ++i) held.set(i, {});
+  }
+  t.cloth.self_pair_count = t.cloth.layer_pair_count = kNone;
+}
+
+/// The cloth as it was when the tick began, at rest, carried to where its pins are.
+void fall_back(ClothTick& t) {
+  roll_back(t);
+  const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
+  for (std::size_t i = 0; i < n; ++i) t.velocity.set(i, {});
+  if (pins != 0) {
+    const RigidCarry carry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
+                           .particle_count = n,
+                           .position = t.position,
+                           .velocity = t.velocity};
+    assert(carry.validate());
+    carry.run();
+  }
+  for (std::size_t k = 0; k < pins; ++k) t.position.set(t.garment.pins[k], t.pin_next[k]);
+  ++t.world.stats.fallbacks;
+  if (t.cloth.said_fallback) return;
+  t.cloth.said_fallback = true;
+  t.world.log(PLEAT_LOG_WARNING,
+              "a cloth broke in a tick and in its repetitions with more substeps: it stays as it was");
+}
+
+}  // namespace
+
+void run_phase(ClothTick& t, Phase phase) {
+  const std::span<const Row> rows = schedule_table();
+  const pleat_world_def& host = t.world.def;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].phase != phase || (t.cloth.plan >> r & 1) == 0) continue;
+    if (host.stage != nullptr) host.stage(rows[r].name, 1, host.stage_user);
+    rows[r].run(t);
+    if (host.stage != nullptr) host.stage(rows[r].name, 0, host.stage_user);
+  }
+}
+
+void tick_cloth(World& world, ClothRecord& cloth, float dt) {
+  ClothTick t(world, cloth);
+  t.frame_dt = dt;
+  std::uint32_t n = substeps_for(t, dt);
+  copy(t.start, t.position, t.garment.particle_count);
+  copy(t.start_velocity, t.velocity, t.garment.particle_count);
+  const Stats before = world.stats;
+  run_substeps(t, n);
+  if (t.trouble) {
+    for (int retry = 0; t.trouble && retry < kRetries; ++retry) {
+      world.stats = before;
+      roll_back(t);
+      run_substeps(t, n *= 2);
+    }
+    ++world.stats.rollbacks;
+    if (t.trouble) fall_back(t);
+  }
+  run_phase(t, Phase::kFrameEnd);
+  cloth.substeps_taken = n;
+  cloth.contacts = {.particle = world.stats.particle_contacts - before.particle_contacts,
+                    .face = world.stats.face_contacts - before.face_contacts,
+                    .self = world.stats.self_contacts - before.self_contacts,
+                    .dropped = world.stats.contacts_dropped - before.contacts_dropped};
+  world.substeps += n;
+}
+
+}  // namespace pleat

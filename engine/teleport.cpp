@@ -1,0 +1,71 @@
+#include "engine/teleport.h"
+
+#include <string>
+
+#include "engine/layers.h"
+#include "engine/schedule_row.h"
+#include "systems/pin_jump.h"
+#include "systems/rigid_carry.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/body_carry.h"
+#endif
+
+namespace pleat {
+namespace {
+
+void carry_bodies([[maybe_unused]] World& world, [[maybe_unused]] const RigidMotion& jump) {
+#ifdef PLEAT_WITH_COLLISION
+  carry_along(jump, world.capsules);
+  for (MeshRecord& record : world.meshes) carry_along(jump, record.mesh);
+  for (PlaneCollider& plane : world.planes) carry_along(jump, plane);
+#endif
+}
+
+void carry(ClothTick& t, const RigidMotion& jump) {
+  World& world = t.world;
+  RigidCarry cloth{
+      .motion = jump, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
+  if (world.held.size() != 0) cloth.held = world.held.view().from(t.cloth.particle_begin);
+  run(cloth);
+  const Vec3View previous = world.pin_previous.view().from(t.cloth.pin_begin),
+                 next = world.pin_next.view().from(t.cloth.pin_begin);
+  for (std::size_t k = 0; k < t.garment.pins.size(); ++k) {
+    const bool moved = !(next[k] == previous[k]);
+    previous.set(k, jump.apply(previous[k]));
+    if (!moved) next.set(k, previous[k]);
+  }
+  carry_bodies(world, jump);
+  t.cloth.self_pair_count = kNone;
+  forget_layer_pairs(world);
+}
+
+void report_jump(ClothTick& t, const RigidMotion& jump) {
+  if (t.cloth.said_jump) return;
+  t.cloth.said_jump = true;
+  t.world.log(PLEAT_LOG_INFO, "a cloth's pins moved by " + std::to_string(length(jump.to - jump.from)) +
+                                  " m in one tick: taken for a jump, the cloth is carried along");
+}
+
+}  // namespace
+
+void teleport(ClothTick& t) {
+  ClothRecord& cloth = t.cloth;
+  const bool declared = cloth.declared_jump.has_value();
+  if (declared) carry(t, *cloth.declared_jump);
+  cloth.declared_jump.reset();
+  std::optional<RigidMotion> found;
+  if (t.settings.teleport_speed > 0.0f && t.garment.pins.size() != 0) {
+    const PinJump jump{.count = t.garment.pins.size(),
+                       .previous = t.pin_previous,
+                       .next = t.pin_next,
+                       .dt = t.frame_dt,
+                       .speed = t.settings.teleport_speed,
+                       .velocity = &cloth.pin_velocity};
+    assert(jump.validate());
+    found = jump.run();
+    if (found) carry(t, *found), report_jump(t, *found);
+  }
+  if (declared || found) ++t.world.stats.teleports;
+}
+
+}  // namespace pleat

@@ -1,0 +1,89 @@
+// Ticks that end badly begin anew, and where nothing helps the cloth stays as it was.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/engine/scene.h"
+
+namespace pleat {
+namespace {
+
+/// Undamped springs without a strain limit.
+pleat_cloth_settings bare() {
+  pleat_cloth_settings s = Scene::default_settings();
+  s.stretch_limit = 1e6f;
+  s.air_damping = s.edge_damping = s.bend_damping = s.inner_friction = s.bend_stiffness = 0.0f;
+  return s;
+}
+
+float fastest(const std::vector<float>& state) {
+  float most = 0.0f;
+  for (std::size_t i = state.size() / 2; i < state.size(); ++i) most = std::max(most, std::abs(state[i]));
+  return most;
+}
+
+TEST(Rollback, OrdinaryMotionHasNone) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(8));
+  std::vector<float> pins{-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
+  for (int i = 0; i < 60; ++i) {  // shaken at up to 12 m/s
+    for (std::size_t k = 1; k < pins.size(); k += 3) pins[k] = 0.4f * std::sin(30.0f * static_cast<float>(i) / 60.0f);
+    must(call::cloth_move_pins(scene, cloth, pins.data(), 0, 2));
+    scene.step();
+  }
+  EXPECT_EQ(scene.stats().rollbacks, 0u);
+}
+
+TEST(Rollback, AStretchedSheetThatIsLetGoHasNone) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(8));
+  std::vector<float> state = scene.particles(cloth);
+  for (std::size_t i = 0; i < 3 * 64; ++i) state[i] *= 3.0f;
+  must(call::cloth_write_particles(scene, cloth, state.data(), nullptr, 64));
+  scene.step(10);
+  EXPECT_EQ(scene.stats().rollbacks, 0u);
+}
+
+/// A storm that lifts more than it drags feeds springs that have no damping: 8 substeps a tick are too few for it.
+TEST(Rollback, MoreSubstepsHelpWhereTheyCan) {
+  Scene scene;
+  pleat_cloth_settings s = bare();
+  s.stiffness = 60.0f, s.substeps = 8;
+  s.drag_coefficient = 1.0f, s.lift_coefficient = 30.0f;
+  scene.cloth(scene.sheet(8), s);
+  const float wind[3] = {20, 3, 20};
+  must(call::world_set_wind(scene, wind));
+  scene.step(30, 1.0f / 30);
+  EXPECT_GT(scene.stats().rollbacks, 5u);
+  EXPECT_LT(scene.stats().fallbacks, scene.stats().rollbacks / 2);
+}
+
+TEST(Rollback, WhereNothingHelpsTheClothStaysWithItsPins) {
+  std::vector<std::string> lines;
+  pleat_world_def def = Scene::default_def();
+  def.log = [](std::uint32_t level, const char* line, void* user) {
+    if (level == PLEAT_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->push_back(line);
+  };
+  def.log_user = &lines;
+  Scene scene(def);
+  pleat_cloth_settings s = bare();
+  s.integrator = PLEAT_INTEGRATOR_EXPLICIT_EULER;  // never stable without damping
+  s.stiffness = 1e5f;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(8), s);
+  std::vector<float> pins{-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
+  for (int i = 0; i < 60; ++i) {
+    for (std::size_t k = 0; k < pins.size(); k += 3) pins[k] += 0.05f;
+    must(call::cloth_move_pins(scene, cloth, pins.data(), 0, 2));
+    scene.step(1, 1.0f / 30);
+    const std::vector<float> state = scene.particles(cloth);
+    ASSERT_TRUE(std::all_of(state.begin(), state.end(), [](float x) { return std::isfinite(x); }));
+    ASSERT_LT(fastest(state), 50.0f) << "tick " << i;
+    for (std::size_t k = 0; k < 3 * 64; k += 3) ASSERT_NEAR(state[k], pins[0] + 0.5f, 1.5f) << "left behind";
+  }
+  EXPECT_GT(scene.stats().fallbacks, 10u);
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const std::string& line) { return line.find("stays as it was") != std::string::npos; }),
+            1);
+}
+
+}  // namespace
+}  // namespace pleat
