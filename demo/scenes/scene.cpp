@@ -46,6 +46,9 @@ Scene::Scene(const pleat_api& api, SceneDef scene_def, pleat_stage_fn stage, voi
   api_.world_def_init(&world_def, sizeof world_def);
   copy(def().gravity.cast<float>(), world_def.gravity);
   copy(def().wind.cast<float>(), world_def.wind);
+  world_def.gust = float(def().gust);
+  world_def.gust_frequency = float(def().gust_frequency);
+  world_def.gust_seed = def().gust_seed;
   world_def.log = keep_log;
   world_def.log_user = this;
   world_def.stage = stage;

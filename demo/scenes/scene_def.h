@@ -43,6 +43,8 @@ struct SceneDef {
   double settle = 0.0;    ///< s of `motion` before frame 0: it begins at -settle
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};
   Eigen::Vector3d wind{0.0, 0.0, 0.0};
+  double gust = 0.0, gust_frequency = 2.0;  ///< m/s, Hz: as in pleat_world_def
+  uint32_t gust_seed = 0;
   TriangleMesh garment;        ///< at rest, where it starts
   std::vector<uint32_t> pins;  ///< vertices that follow the body's hips
   pleat_cloth_settings settings{};

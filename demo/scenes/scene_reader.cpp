@@ -66,6 +66,23 @@ void read_settings(const JsonValue& settings, pleat_cloth_settings& into) {
   }
 }
 
+void read_gust(const JsonValue& gust, SceneDef& def) {
+  gust.allow_keys({"speed", "frequency", "seed"});
+  def.gust = gust.at("speed").number(0.0, 1e3);
+  if (const auto frequency = gust.find("frequency")) def.gust_frequency = frequency->number(1e-3, 1e3);
+  if (const auto seed = gust.find("seed")) def.gust_seed = seed->integer(0, UINT32_MAX);
+}
+
+void read_fabric(const JsonValue& fabric, const pleat_api& api, pleat_cloth_settings& into) {
+  const auto word = std::ranges::find(kFabrics, fabric.text(), &SettingWord::name);
+  if (word == kFabrics.end()) {
+    std::vector<std::string> known;
+    for (const SettingWord& w : kFabrics) known.emplace_back(w.name);
+    fabric.fail("unknown fabric `" + fabric.text() + "`; known are " + join(known));
+  }
+  api.fabric_apply(word->value, &into);
+}
+
 /// Copies stand in rows of `columns`, `spacing` apart in x and z.
 std::vector<Vector3d> read_copies(const JsonValue& copies) {
   copies.allow_keys({"count", "columns", "spacing"});
@@ -95,8 +112,8 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   nlohmann::json document = parse_json(file.text(), file.name());
   set_size(document, sized, file.name());
   const JsonValue scene(document, file.name());
-  scene.allow_keys({"description", "N", "rate", "frames", "gravity", "wind", "garment", "settings", "colliders",
-                    "motion", "copies", "layers", "crossings", "ground", "view"});
+  scene.allow_keys({"description", "N", "rate", "frames", "gravity", "wind", "gust", "garment", "fabric", "settings",
+                    "colliders", "motion", "copies", "layers", "crossings", "ground", "view"});
 
   SceneDef def;
   def.name = request.scene;
@@ -104,6 +121,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (request.rate) def.rate = *request.rate;
   if (const auto gravity = scene.find("gravity")) def.gravity = gravity->vector(-1e3, 1e3);
   if (const auto wind = scene.find("wind")) def.wind = wind->vector(-1e3, 1e3);
+  if (const auto gust = scene.find("gust")) read_gust(*gust, def);
 
   MotionDef motion;
   if (const auto value = scene.find("motion")) {
@@ -150,6 +168,7 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   pleat_cloth_def cloth;
   api.cloth_def_init(&cloth, sizeof cloth);
   def.settings = cloth.settings;
+  if (const auto fabric = scene.find("fabric")) read_fabric(*fabric, api, def.settings);
   if (const auto settings = scene.find("settings")) read_settings(*settings, def.settings);
   for (const std::string& assignment : request.settings) apply_option(assignment, def.settings);
   return def;

@@ -25,6 +25,11 @@ constexpr SettingWord kFaceResponseWords[] = {{"weighted", PLEAT_FACE_RESPONSE_W
 constexpr SettingWord kLevelWords[] = {
     {"fan", PLEAT_LEVEL_FAN}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"5", 5}, {"6", 6}, {"7", 7}, {"8", 8}};
 
+constexpr SettingWord kFabricWords[] = {{"polyester", PLEAT_FABRIC_POLYESTER}, {"trousers", PLEAT_FABRIC_TROUSERS},
+                                        {"denim", PLEAT_FABRIC_DENIM},         {"blanket", PLEAT_FABRIC_BLANKET},
+                                        {"interlock", PLEAT_FABRIC_INTERLOCK}, {"ponte", PLEAT_FABRIC_PONTE},
+                                        {"sweat", PLEAT_FABRIC_SWEAT},         {"nylon", PLEAT_FABRIC_NYLON}};
+
 constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"substeps", &S::substeps},
                               {"sweeps", &S::sweeps},
@@ -48,7 +53,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"tangents", &S::tangents},
                               {"layer", &S::layer},
                               {"buckling_strain", &S::buckling_strain},
-                              {"teleport_speed", &S::teleport_speed}};
+                              {"teleport_speed", &S::teleport_speed},
+                              {"sleep_speed", &S::sleep_speed}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {
@@ -81,6 +87,7 @@ const std::span<const Setting> kSettings = kTable;
 const std::span<const SettingWord> kIntegrators = kIntegratorWords;
 const std::span<const SettingWord> kSurfaces = kSurfaceWords;
 const std::span<const SettingWord> kLevels = kLevelWords;
+const std::span<const SettingWord> kFabrics = kFabricWords;
 
 void set_setting(pleat_cloth_settings& settings, std::string_view name, std::string_view text) {
   for (const Setting& setting : kTable) {

@@ -26,6 +26,7 @@ extern const std::span<const Setting> kSettings;
 extern const std::span<const SettingWord> kIntegrators;
 extern const std::span<const SettingWord> kSurfaces;
 extern const std::span<const SettingWord> kLevels;
+extern const std::span<const SettingWord> kFabrics;
 
 /// Sets one field from text, as in `--set stiffness=60` or `"surface": "paper"`. Ranges are the engine's business.
 /// Throws std::invalid_argument with a line that names what is known.

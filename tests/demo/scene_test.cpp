@@ -351,5 +351,28 @@ TEST(SceneFile, ATruncatedClipIsRefused) {
   std::filesystem::remove(path);
 }
 
+TEST(SceneAir, GustsAndFabricsAreReadAndChecked) {
+  const std::string grid = R"("garment": {"grid": {"rows": 3, "columns": 3}, "pins": {"vertices": [0, 2]}})";
+  const SceneText good("{" + grid + R"(, "fabric": "denim", "settings": {"density": 0.5},
+                        "gust": {"speed": 3, "frequency": 0.5, "seed": 7}})");
+  const SceneDef def = load(good.path());
+  EXPECT_EQ(def.settings.density, 0.5f);
+  EXPECT_NEAR(def.settings.stiffness, 545.6f, 0.1f);
+  EXPECT_EQ(def.settings.bend_stiffness, 70e-6f);
+  EXPECT_EQ(def.gust, 3.0);
+  EXPECT_EQ(def.gust_frequency, 0.5);
+  EXPECT_EQ(def.gust_seed, 7u);
+
+  const std::pair<const char*, const char*> bad[] = {{R"("fabric": "tin")", "/fabric: unknown fabric `tin`"},
+                                                     {R"("fabric": 3)", "/fabric"},
+                                                     {R"("gust": {"seed": 1})", "/gust"},
+                                                     {R"("gust": {"speed": -1})", "/gust/speed"},
+                                                     {R"("gust": {"speed": 1, "sped": 2})", "sped"}};
+  for (const auto& [key, said] : bad) {
+    const SceneText scene("{" + grid + ", " + key + "}");
+    EXPECT_NE(scene.complaint().find(said), std::string::npos) << scene.complaint();
+  }
+}
+
 }  // namespace
 }  // namespace pleat::demo
