@@ -16,6 +16,7 @@ struct Stats {
   std::uint64_t teleports = 0;           // ticks of a cloth whose pins jumped
   std::uint64_t rollbacks = 0;           // ticks of a cloth that began anew
   std::uint64_t fallbacks = 0;           // of these, ticks without a good end
+  std::uint64_t sleeping = 0;            // cloths that slept through the tick
   std::uint64_t nonfinite_restored = 0;  // particles put back to where they were finite
 };
 

@@ -37,7 +37,8 @@ const pleat_cloth_def& default_cloth() {
                   .tangents = 0,
                   .layer = 0,
                   .buckling_strain = 0.01f,
-                  .teleport_speed = 50.0f};
+                  .teleport_speed = 50.0f,
+                  .sleep_speed = 0.0f};
     return d;
   }();
   return def;
@@ -70,6 +71,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_range("buckling_strain", s.buckling_strain, 0, 1);
   need_compiled(kHasCollision || s.layer == 0, "layer", "PLEAT_COLLISION");
   need_range("teleport_speed", s.teleport_speed, 0, 1e9);
+  need_range("sleep_speed", s.sleep_speed, 0, 1);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 

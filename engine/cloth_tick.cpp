@@ -7,6 +7,7 @@
 #include <string>
 
 #include "components/tethers.h"
+#include "engine/sleep.h"
 #include "systems/frequency_bound.h"
 #include "systems/rigid_carry.h"
 #include "systems/rigid_fit.h"
@@ -166,6 +167,12 @@ void run_phase(ClothTick& t, Phase phase) {
 void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   ClothTick t(world, cloth);
   t.frame_dt = dt;
+  if (sleeps_on(t)) {
+    ++world.stats.sleeping;
+    cloth.substeps_taken = 0;
+    cloth.contacts = {};
+    return;
+  }
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
   copy(t.start_velocity, t.velocity, t.garment.particle_count);

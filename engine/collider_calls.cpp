@@ -1,6 +1,7 @@
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
+#include "engine/sleep.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_hull.h"
 #endif
@@ -205,6 +206,7 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
         world.planes[record.position].enabled = enabled != 0;
         break;
     }
+    wake_all(world);
 #endif
   });
 }
@@ -292,6 +294,7 @@ pleat_result collider_set(pleat_world* handle, [[maybe_unused]] pleat_collider c
     const pleat_collider_settings wanted = read_def("settings", settings, settings_of(world, record));
     need_settings(wanted);
     set_collider(world, record, wanted);
+    wake_all(world);
 #endif
   });
 }

@@ -233,9 +233,12 @@ typedef struct pleat_cloth_settings {
                             default 0: meets no other cloth */
   float buckling_strain; /* compression beyond which an edge yields, as the cloth along it would bulge: from there a
                             tenth of `stiffness` resists; fraction, default 0.01; 1: never, the paper's springs */
-  float teleport_speed; /* m/s. Pins whose mean speed, and its change from tick to tick, are both above it have jumped,
-                           and so have pins that turn by more than 150 degrees in a tick: the cloth is carried along,
-                           see cloth_teleport. Default 50; 0: only jumps that are declared are jumps */
+  float teleport_speed;  /* m/s. Pins whose mean speed, and its change from tick to tick, are both above it have jumped,
+                            and so have pins that turn by more than 150 degrees in a tick: the cloth is carried along,
+                            see cloth_teleport. Default 50; 0: only jumps that are declared are jumps */
+  float sleep_speed; /* m/s. A cloth that was slower than this everywhere for half a second sleeps: it stays as it is
+                        and costs next to nothing until its pins, bodies near it, a layer below it, the air, gravity
+                        or settings change. In gusts it does not sleep. Default 0: never; .001 is hard to see */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -341,6 +344,7 @@ typedef struct pleat_stats {
                                   with more energy than anything could have given it */
   uint64_t fallbacks;          /* of these, ticks for which no number of substeps was enough: the cloth was left as it
                                   had been, at rest, its pins where they should be. The log says so once */
+  uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever

@@ -8,6 +8,7 @@
 #include "engine/layers.h"
 #include "engine/room.h"
 #include "engine/schedule_table.h"
+#include "engine/sleep.h"
 #include "systems/frequency_bound.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -118,6 +119,7 @@ void refresh(World& world, ClothRecord& cloth) {
   assert(bound.validate());
   cloth.rates = bound.run();
   cloth.said_lowered = false;
+  wake(cloth);
   cloth.plan = plan_of(world, cloth);
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);
@@ -128,6 +130,7 @@ void refresh(World& world, ClothRecord& cloth) {
 }
 
 void replan(World& world) {
+  wake_all(world);
   for (ClothRecord& cloth : world.clothes) {
     make_room(world, cloth);
     cloth.plan = plan_of(world, cloth);
@@ -136,7 +139,7 @@ void replan(World& world) {
 
 void tick(World& world, float dt) {
   ++world.ticks;
-  world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = 0;
+  world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;
   for (ClothRecord& cloth : world.clothes) {
     ClothTick t(world, cloth);
     t.frame_dt = dt;

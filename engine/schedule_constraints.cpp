@@ -1,5 +1,6 @@
 // Rows from the predicted position to the end of a substep: contact, strain limit, velocities, the guard.
 #include "engine/schedule_row.h"
+#include "engine/sleep.h"
 #include "systems/elastic_projection.h"
 #include "systems/energy_check.h"
 #include "systems/finite_guard.h"
@@ -290,6 +291,9 @@ constexpr Row kRows[] = {
        t.trouble = t.trouble || t.world.stats.nonfinite_restored != before;
      }},
     {Phase::kCheck, "energy_check", always, check_energy},
+    {Phase::kCheck, "sleep",
+     [](const World&, const ClothRecord& c) { return c.settings.sleep_speed > 0.0f ? kNeeded : "sleep_speed is 0"; },
+     watch_rest},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "engine/layers.h"
 #include "engine/schedule_row.h"
+#include "engine/sleep.h"
 #include "systems/pin_jump.h"
 #include "systems/rigid_carry.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -35,6 +36,7 @@ void carry(ClothTick& t, const RigidMotion& jump) {
     if (!moved) next.set(k, previous[k]);
   }
   carry_bodies(world, jump);
+  wake(t.cloth);
   t.cloth.self_pair_count = kNone;
   forget_layer_pairs(world);
 }

@@ -66,6 +66,7 @@ struct ClothRecord {
   bool said_jump = false;     // that its pins jumped
   bool said_fallback = false;
   Vec3 pin_velocity;                         // m/s, mean of the last tick
+  float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
 
   const Garment& garment() const { return source->garment; }

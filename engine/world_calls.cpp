@@ -1,6 +1,7 @@
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
+#include "engine/sleep.h"
 
 namespace pleat::call {
 namespace {
@@ -80,6 +81,7 @@ pleat_result world_set_wind(pleat_world* handle, const float wind[3]) {
     World& world = need_world(handle);
     need_small("wind", wind, kMostWind);
     std::copy_n(wind, 3, world.def.wind);
+    wake_all(world);
   });
 }
 
@@ -114,6 +116,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.teleports = world.stats.teleports;
     all.rollbacks = world.stats.rollbacks;
     all.fallbacks = world.stats.fallbacks;
+    all.sleeping = world.stats.sleeping;
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();

@@ -61,7 +61,8 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
                                                        {"inner_friction", &S::inner_friction},
                                                        {"self_distance", &S::self_distance},
                                                        {"buckling_strain", &S::buckling_strain},
-                                                       {"teleport_speed", &S::teleport_speed}};
+                                                       {"teleport_speed", &S::teleport_speed},
+                                                       {"sleep_speed", &S::sleep_speed}};
   for (const auto& [name, field] : floats) {
     for (const float value : {kNan, kInfinity, -kInfinity, -1e-3f, 1e30f}) refused(name, field, value);
   }

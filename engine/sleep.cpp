@@ -1,0 +1,56 @@
+#include "engine/sleep.h"
+
+#include <algorithm>
+
+#include "engine/schedule_row.h"
+#include "systems/disturbance.h"
+
+namespace pleat {
+namespace {
+
+constexpr float kFallAsleep = 0.5f;  // s
+constexpr float kNear = 0.03f;       // m, in which a body that moves counts: what contact looks at, and some more
+
+bool is_disturbed(const ClothTick& t) {
+  const World& w = t.world;
+  for (const ClothRecord& other : w.clothes) {
+    const bool below = other.settings.layer > 0 && other.settings.layer < t.settings.layer;
+    if (below && other.calm < kFallAsleep) return true;
+  }
+  const Disturbance around{.garment = &t.garment,
+                           .position = t.position,
+                           .pin_previous = t.pin_previous,
+                           .pin_next = t.pin_next,
+                           .capsules = &w.capsules,
+                           .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
+                           .planes = {w.planes.data(), w.planes.size()},
+                           .reach = t.settings.thickness + kNear};
+  assert(around.validate());
+  return around.run();
+}
+
+bool in_gusts(const ClothTick& t) {
+  const bool in_air = t.settings.drag_coefficient > 0.0f || t.settings.lift_coefficient > 0.0f;
+  return in_air && t.world.def.gust > 0.0f;
+}
+
+}  // namespace
+
+void wake(ClothRecord& cloth) { cloth.calm = 0.0f; }
+
+void wake_all(World& world) {
+  for (ClothRecord& cloth : world.clothes) wake(cloth);
+}
+
+bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }
+
+void watch_rest(ClothTick& t) {
+  const std::size_t n = t.garment.particle_count;
+  const bool calm =
+      !t.trouble && largest_speed(n, t.velocity) < t.settings.sleep_speed && !in_gusts(t) && !is_disturbed(t);
+  t.cloth.calm = calm ? t.cloth.calm + t.frame_dt : 0.0f;
+  if (t.cloth.calm < kFallAsleep) return;
+  for (std::size_t i = 0; i < n; ++i) t.velocity.set(i, {});
+}
+
+}  // namespace pleat

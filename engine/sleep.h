@@ -1,0 +1,16 @@
+// Cloths at rest: when they fall asleep, and what wakes them.
+#pragma once
+
+#include "engine/schedule_table.h"
+
+namespace pleat {
+
+/// Something that a cloth depends on has changed; `wake_all`: that all may depend on.
+void wake(ClothRecord& cloth);
+void wake_all(World& world);
+/// Whether the cloth has nothing to do in this tick: to be asked before it, with the tick's poses in place.
+bool sleeps_on(const ClothTick& t);
+/// When a tick is done: a cloth that was calm for long enough falls asleep.
+void watch_rest(ClothTick& t);
+
+}  // namespace pleat

@@ -1,0 +1,30 @@
+// Whether anything around a cloth that sleeps has moved.
+#pragma once
+
+#include <span>
+
+#include "components/colliders.h"
+#include "components/garment.h"
+
+namespace pleat {
+
+/// Says whether a pin moves in this tick, or a body that moves comes within `reach` of the cloth on its way.
+/// Reads:  position (P) m; pin_previous, pin_next (pins) m; bodies
+/// Cost:   O(P + capsules), and O(vertices) of each mesh that may have moved; no allocation. Errors: none.
+struct Disturbance {
+  const Garment* garment = nullptr;
+  ConstVec3View position;
+  ConstVec3View pin_previous, pin_next;
+  const CapsuleColumns* capsules = nullptr;
+  std::span<const MeshCollider* const> meshes;
+  std::span<const PlaneCollider> planes;
+  float reach = 0.0f;  // m
+
+  bool validate() const;
+  bool run() const;
+};
+
+/// The largest speed of any particle, m/s. Cost: O(P).
+float largest_speed(std::size_t count, const ConstVec3View& velocity);
+
+}  // namespace pleat
