@@ -10,6 +10,8 @@ namespace {
 /// Undamped springs without a strain limit.
 pleat_cloth_settings bare() {
   pleat_cloth_settings s = Scene::default_settings();
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
+  s.buckling_strain = 1.0f;
   s.stretch_limit = 1e6f;
   s.air_damping = s.edge_damping = s.bend_damping = s.inner_friction = s.bend_stiffness = 0.0f;
   return s;

@@ -94,7 +94,7 @@ TEST(Sleep, OnlyBodiesThatComeNearWakeIt) {
 TEST(Sleep, LayersWakeThoseOverThem) {
   Asleep scene(0.005f, false);
   pleat_cloth_settings s = scene.settings(scene.id);
-  s.layer = 1;
+  s.layer = 1, s.sleep_speed = 0.05f;
   must(call::cloth_set(scene, scene.id, &s));
   s.layer = 2, s.thickness = 0.05f;
   scene.cloth(scene.sheet(4), s);
