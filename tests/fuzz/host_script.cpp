@@ -28,8 +28,9 @@ class Bytes {
   /// Everyday numbers mostly; now and then extreme ones, and any bits at all.
   float number(float usual = 1.0f) {
     constexpr float kInf = std::numeric_limits<float>::infinity();
-    constexpr std::array kExtremes = {0.0f, 1e-45f, 1e-30f, 1e-9f, 1e-6f, 1e-3f, 1e3f,  1e5f,
-                                      1e6f, 1e9f,   1e12f,  1e30f, 3e38f, kInf,  -kInf, std::nanf("")};
+    constexpr std::array kExtremes = {
+        0.0f, 1e-45f, 1e-30f, 1e-9f, 1e-6f, 1e-3f, 1e3f,  1e5f,
+        1e6f, 1e9f,   1e12f,  1e30f, 3e38f, kInf,  -kInf, std::numeric_limits<float>::quiet_NaN()};
     const std::uint32_t kind = byte();
     if (kind < 0xc0) return usual * (static_cast<float>(kind) - 96.0f) / 48.0f;
     if (kind < 0xfc) return kExtremes[kind % kExtremes.size()] * (kind & 32 ? -1.0f : 1.0f);
