@@ -70,8 +70,8 @@ std::vector<SceneScores> compete(const pleat_api& api, const std::vector<Arena>&
     const auto& [scene, reference, settings] = all[i];
     const SurfaceDistance halving =
         surface_distance(reference_surface(api, reference.half), reference_surface(api, reference.fine));
-    scores.push_back(
-        {scene, halving, hold_contest(api, *scene, reference, fields[i], quick, [&] { progress.step(); })});
+    scores.push_back({scene, halving, sheet_spectrum(reference.fine, kFineSide, kFineSide),
+                      hold_contest(api, *scene, reference, fields[i], quick, [&] { progress.step(); })});
   }
   return scores;
 }

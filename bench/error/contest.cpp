@@ -1,11 +1,12 @@
 #include "bench/error/contest.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <memory>
 
+#include "bench/metrics/area_samples.h"
 #include "bench/metrics/silhouette.h"
-#include "bench/metrics/size_error.h"
 #include "demo/scenes/stage_clock.h"
 
 namespace pleat::bench {
@@ -20,6 +21,45 @@ void time_frames(Contestant& contestant, int frames, std::vector<double>& times)
   }
 }
 
+/// Of all edges of a garment, how far they are from their length as it was cut.
+LengthError edge_error(const demo::TriangleMesh& garment, std::span<const float> particles) {
+  std::vector<std::array<uint32_t, 2>> edges;
+  for (size_t t = 0; t < garment.triangles.size(); t += 3) {
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(garment.triangles[t + k], garment.triangles[t + (k + 1) % 3]);
+      edges.push_back({low, high});
+    }
+  }
+  std::ranges::sort(edges);
+  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  std::vector<uint32_t> ends;
+  std::vector<float> rest;
+  for (const auto& [a, b] : edges) {
+    ends.insert(ends.end(), {a, b});
+    rest.push_back(float((corner(garment, a) - corner(garment, b)).norm()));
+  }
+  return length_error(particles, ends, rest);
+}
+
+Score measure(const Contestants& one, const Drawing& drawing, const Contestant& running,
+              const demo::TriangleMesh& truth) {
+  const demo::TriangleMesh drawn = running.surface();
+  const std::vector<float> particles = running.particles();
+  const Dynamics& dynamics = one.dynamics;
+  return {.method = drawing.method,
+          .dynamics = dynamics.name,
+          .grid = dynamics.grid,
+          .drawn_triangles = drawn.triangle_count(),
+          .ms = 0.0,
+          .error = surface_distance(drawn, truth),
+          .silhouette_overlap = silhouette_overlap(drawn, truth, 256),
+          .area_error_percent =
+              100.0 * (mesh_area(drawn.positions, drawn.triangles) / mesh_area(truth.positions, truth.triangles) - 1.0),
+          .edges = edge_error(running.garment(), particles),
+          .wrinkles = sheet_spectrum(particles, dynamics.grid.rows, dynamics.grid.columns),
+          .peer = dynamics.peer.has_value()};
+}
+
 }  // namespace
 
 std::vector<Score> hold_contest(const pleat_api& api, const RestScene& scene, const Reference& reference,
@@ -32,7 +72,6 @@ std::vector<Score> hold_contest(const pleat_api& api, const RestScene& scene, co
   }
 
   const demo::TriangleMesh truth = reference_surface(api, reference.fine);
-  const double true_area = mesh_area(truth.positions, truth.triangles);
   std::vector<Score> scores;
   std::vector<std::vector<double>> times;  // us, of each score
   const int rounds = quick ? 3 : 5;
@@ -43,11 +82,7 @@ std::vector<Score> hold_contest(const pleat_api& api, const RestScene& scene, co
         running[i]->draw_as(drawing);
         running[i]->run_frame();  // warm again
         if (round == 0) {
-          const demo::TriangleMesh drawn = running[i]->surface();
-          scores.push_back({drawing.method, all[i].dynamics.name, all[i].dynamics.grid, drawn.triangle_count(), 0.0,
-                            surface_distance(drawn, truth), silhouette_overlap(drawn, truth, 256),
-                            100.0 * (mesh_area(drawn.positions, drawn.triangles) / true_area - 1.0),
-                            all[i].dynamics.peer.has_value()});
+          scores.push_back(measure(all[i], drawing, *running[i], truth));
           times.emplace_back();
         }
         time_frames(*running[i], 4, times[score++]);

@@ -6,7 +6,9 @@
 
 #include "bench/error/field.h"
 #include "bench/error/reference.h"
+#include "bench/metrics/size_error.h"
 #include "bench/metrics/surface_distance.h"
+#include "bench/metrics/wrinkle_spectrum.h"
 
 namespace pleat::bench {
 
@@ -18,6 +20,8 @@ struct Score {
   double ms;  ///< a frame of 1/60 s at rest, median
   SurfaceDistance error;
   double silhouette_overlap, area_error_percent;
+  LengthError edges;         ///< of the particles, against rest
+  WrinkleSpectrum wrinkles;  ///< of the particles
   bool peer;
 };
 

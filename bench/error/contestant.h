@@ -45,6 +45,8 @@ class Contestant {
   /// As of the last frame.
   demo::TriangleMesh surface() const;
   std::vector<float> particles() const;
+  /// As it was cut.
+  const demo::TriangleMesh& garment() const { return running().def().garment; }
 
  private:
   const demo::RunningScene& running() const;

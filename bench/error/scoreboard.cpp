@@ -51,6 +51,13 @@ void print_scene(const SceneScores& of_scene) {
   }
 }
 
+/// Band by band, mm2.
+nlohmann::ordered_json to_json(const WrinkleSpectrum& spectrum) {
+  nlohmann::ordered_json bands = nlohmann::ordered_json::array();
+  for (const double energy : spectrum) bands.push_back(1e6 * energy);
+  return bands;
+}
+
 std::string ratio_text(const std::optional<double>& ratio) {
   char word[24] = "not reached";
   if (ratio) std::snprintf(word, sizeof word, "%.2f", *ratio);
@@ -109,7 +116,10 @@ nlohmann::ordered_json scores_json(const std::vector<SceneScores>& all) {
                         {"hausdorff_mm", 1e3 * s.error.hausdorff},
                         {"normal_rms_deg", s.error.normal_rms_deg},
                         {"silhouette_overlap_percent", 100.0 * s.silhouette_overlap},
-                        {"area_error_percent", s.area_error_percent}});
+                        {"area_error_percent", s.area_error_percent},
+                        {"edge_error_median_percent", s.edges.median_percent},
+                        {"edge_error_p99_percent", s.edges.p99_percent},
+                        {"wrinkle_energy_mm2", to_json(s.wrinkles)}});
     }
     for (const EqualError& row : equal_errors(of_scene)) {
       nlohmann::ordered_json entry = {{"grid", text(row.grid)}, {"ms", row.ms}, {"rms_mm", 1e3 * row.rms}};
@@ -122,6 +132,8 @@ nlohmann::ordered_json scores_json(const std::vector<SceneScores>& all) {
                        {{"rms_mm", 1e3 * of_scene.halving.rms},
                         {"hausdorff_mm", 1e3 * of_scene.halving.hausdorff},
                         {"normal_rms_deg", of_scene.halving.normal_rms_deg}}},
+                      {"wrinkle_band_ends", kBandEnds},
+                      {"reference_wrinkle_energy_mm2", to_json(of_scene.wrinkles)},
                       {"scores", scores},
                       {"time_to_equal_error", equal}});
   }

@@ -12,7 +12,8 @@ namespace pleat::bench {
 /// A scene, what its truth is good for, and how all did in it.
 struct SceneScores {
   const RestScene* scene;
-  SurfaceDistance halving;  ///< of the reference from that of half the mesh
+  SurfaceDistance halving;   ///< of the reference from that of half the mesh
+  WrinkleSpectrum wrinkles;  ///< of the reference
   std::vector<Score> scores;
 };
 

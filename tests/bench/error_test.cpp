@@ -123,6 +123,8 @@ TEST(Contest, EveryDynamicsComesNearTheTruth) {
     EXPECT_GT(score.ms, 0.0);
     EXPECT_LT(score.error.rms, 0.03) << score.method << ", " << score.dynamics;
     EXPECT_GT(score.error.rms, 1e-5) << score.method << ", " << score.dynamics;
+    EXPECT_LT(score.edges.median_percent, 5.0) << score.method << ", " << score.dynamics;
+    EXPECT_GT(score.wrinkles[0], 0.005) << score.method << ", " << score.dynamics;  // m2: the sag of .27 m
   }
 }
 
