@@ -15,7 +15,9 @@ void print_quality(const Quality& quality) {
     std::printf("penetration   particles %.2f mm, triangles %.2f mm, drawn surface %.2f mm\n",
                 *quality.penetration_particle_mm, *quality.penetration_interior_mm, *quality.penetration_drawn_mm);
   }
-  if (quality.rest_jitter_mm) std::printf("rest jitter   %.4f mm a frame\n", *quality.rest_jitter_mm);
+  if (quality.rest_jitter_mm)
+    std::printf("rest jitter   %.4f mm a frame; the fastest particle %.3f cm/s\n", *quality.rest_jitter_mm,
+                *quality.rest_speed_cm_s);
 }
 
 void print_events(const pleat_stats& stats) {

@@ -136,10 +136,13 @@ void QualityMeter::add_crossings(const Crossings& coarse, const Crossings& drawn
   add(drawn_crossings_, drawn);
 }
 
-void QualityMeter::add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after) {
+void QualityMeter::add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after,
+                                   double dt) {
   for (uint32_t i = 0; i < mesh.pinned.size(); ++i) {
     if (mesh.pinned[i]) continue;
-    squared_motion_ += (point(after, i) - point(before, i)).squaredNorm();
+    const double motion2 = (point(after, i) - point(before, i)).squaredNorm();
+    squared_motion_ += motion2;
+    rest_speed_ = std::max(rest_speed_, std::sqrt(motion2) / dt);
     ++motions_;
   }
 }
@@ -165,7 +168,10 @@ Quality QualityMeter::result() const {
     quality.crossing_depth_mm = millimetres(crossings_->deepest);
     quality.crossing_drawn_depth_mm = millimetres(drawn_crossings_->deepest);
   }
-  if (motions_ > 0) quality.rest_jitter_mm = 1000.0 * rms(squared_motion_, motions_);
+  if (motions_ > 0) {
+    quality.rest_jitter_mm = 1000.0 * rms(squared_motion_, motions_);
+    quality.rest_speed_cm_s = 100.0 * rest_speed_;
+  }
   return quality;
 }
 

@@ -27,7 +27,8 @@ struct Quality {
   std::optional<double> crossings_per_frame;      ///< coarse edges through triangles of their own cloth, mean
   std::optional<double> crossing_depth_mm;        ///< the deepest of them in any frame
   std::optional<double> crossings_drawn_per_frame, crossing_drawn_depth_mm;  ///< the same of the drawn triangles
-  std::optional<double> rest_jitter_mm;  ///< RMS motion per frame of the free particles at rest
+  std::optional<double> rest_jitter_mm;   ///< RMS motion per frame of the free particles at rest
+  std::optional<double> rest_speed_cm_s;  ///< of the fastest of them in any frame
 };
 
 /// What of a cloth never changes.
@@ -57,8 +58,8 @@ class QualityMeter {
   void add_cloth(const ClothMesh& mesh, const ClothFrame& frame, const Bodies& bodies);
   /// How a cloth of this frame passes through itself.
   void add_crossings(const Crossings& coarse, const Crossings& drawn);
-  /// Two successive frames of a cloth whose pins and bodies rest; (P,3) m each.
-  void add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after);
+  /// Two successive frames, `dt` s apart, of a cloth whose pins and bodies rest; (P,3) m each.
+  void add_rest_motion(const ClothMesh& mesh, std::span<const float> before, std::span<const float> after, double dt);
 
   Quality result() const;
 
@@ -67,7 +68,7 @@ class QualityMeter {
   void add_penetration(const ClothMesh& mesh, const ClothFrame& frame, const Bodies& bodies);
 
   std::vector<double> frame_elongation_;  // the largest of each frame
-  double squared_strain_ = 0.0, squared_stretch_ = 0.0, squared_motion_ = 0.0;
+  double squared_strain_ = 0.0, squared_stretch_ = 0.0, squared_motion_ = 0.0, rest_speed_ = 0.0;
   size_t strains_ = 0, stretches_ = 0, motions_ = 0;
   std::optional<double> particle_depth_, interior_depth_, pinned_depth_, drawn_depth_;  // m
   std::optional<Crossings> crossings_, drawn_crossings_;                                // of all frames

@@ -94,7 +94,6 @@ void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSur
 }
 
 void SceneQuality::measure_rest(RunningScene& scene) {
-  if (!scene.def().motion) return;
   const long hold = std::lround(kHold * scene.def().rate), watch = std::lround(kWatch * scene.def().rate);
   for (long frame = 0; frame < hold; ++frame) scene.hold();
   std::vector<std::vector<float>> before(scene.copies());
@@ -103,7 +102,7 @@ void SceneQuality::measure_rest(RunningScene& scene) {
     scene.hold();
     for (size_t k = 0; k < before.size(); ++k) {
       scene.read_particles(k, particles_);
-      meter_.add_rest_motion(mesh_, before[k], particles_);
+      meter_.add_rest_motion(mesh_, before[k], particles_, 1.0 / scene.def().rate);
       before[k].swap(particles_);
     }
   }
@@ -127,6 +126,7 @@ nlohmann::ordered_json to_json(const Quality& quality) {
   put("crossings_drawn_per_frame", quality.crossings_drawn_per_frame);
   put("crossing_drawn_depth_mm", quality.crossing_drawn_depth_mm);
   put("rest_jitter_mm", quality.rest_jitter_mm);
+  put("rest_speed_cm_s", quality.rest_speed_cm_s);
   return json;
 }
 

@@ -131,12 +131,13 @@ TEST(Quality, DepthInAMeshBody) {
   EXPECT_NEAR(*meter.result().penetration_drawn_mm, 100.0, 1e-3);
 }
 
-TEST(Quality, RestJitterCountsFreeParticlesOnly) {
+TEST(Quality, RestJitterAndSpeedCountFreeParticlesOnly) {
   QualityMeter meter;
   const std::array<float, 9> before = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   const std::array<float, 9> after = {9, 9, 9, 0.003f, 0, 0, 0, 0.004f, 0};
-  meter.add_rest_motion(kTriangle, before, after);
+  meter.add_rest_motion(kTriangle, before, after, 0.1);
   EXPECT_NEAR(*meter.result().rest_jitter_mm, std::sqrt((9.0 + 16.0) / 2.0), 1e-5);
+  EXPECT_NEAR(*meter.result().rest_speed_cm_s, 4.0, 1e-5);
 }
 
 }  // namespace
