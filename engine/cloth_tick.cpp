@@ -9,6 +9,7 @@
 #include "components/tethers.h"
 #include "engine/sleep.h"
 #include "systems/frequency_bound.h"
+#include "systems/largest_stretch.h"
 #include "systems/rigid_carry.h"
 #include "systems/rigid_fit.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -20,7 +21,21 @@ namespace {
 
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
+constexpr float kLooseStart = 0.005f;        // elongation beyond the strain limit that a start may have
 constexpr int kRetries = 2;                  // of a tick that went wrong, each with twice the substeps
+
+void stop(ClothTick& t) {
+  for (std::size_t i = 0; i < t.garment.particle_count; ++i) t.velocity.set(i, {});
+}
+
+/// A start that is stretched, as garments made for another body are, is pulled together before it may move: all at once
+/// the strain limit would turn the stretch into speed.
+void watch_settling(ClothTick& t) {
+  const LargestStretch stretch{.garment = &t.garment, .position = t.position, .inverse_mass = t.inverse_mass};
+  assert(stretch.validate());
+  const bool loose = t.settings.stretch_limit < 1.0f && stretch.run() > t.settings.stretch_limit + kLooseStart;
+  t.cloth.settling = loose ? t.cloth.settling - t.frame_dt : 0.0f;
+}
 
 void run_substep(ClothTick& t) {
   const std::size_t n = t.garment.particle_count;
@@ -39,6 +54,7 @@ void run_substep(ClothTick& t) {
   const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
   for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
   run_phase(t, Phase::kSubstepEnd);
+  if (t.cloth.settling > 0.0f) stop(t);
 }
 
 /// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
@@ -134,7 +150,7 @@ void roll_back(ClothTick& t) {
 void fall_back(ClothTick& t) {
   roll_back(t);
   const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
-  for (std::size_t i = 0; i < n; ++i) t.velocity.set(i, {});
+  stop(t);
   if (pins != 0) {
     const RigidCarry carry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
                            .particle_count = n,
@@ -173,6 +189,7 @@ void tick_cloth(World& world, ClothRecord& cloth, float dt) {
     cloth.contacts = {};
     return;
   }
+  if (cloth.settling > 0.0f) watch_settling(t);
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
   copy(t.start_velocity, t.velocity, t.garment.particle_count);

@@ -67,6 +67,7 @@ struct ClothRecord {
   bool said_fallback = false;
   Vec3 pin_velocity;                         // m/s, mean of the last tick
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
+  float settling = 0.25f;                    // s, for how much longer a start that is stretched is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
 
   const Garment& garment() const { return source->garment; }
