@@ -208,7 +208,9 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
   Budget budget{};
   budget.repeat = repeat;
   const bool folds = def.settings.surface == PLEAT_SURFACE_PAPER || def.settings.surface == PLEAT_SURFACE_PLEAT;
-  SceneDef pn = def;
+  SceneDef single = def;  // systems are timed in turn
+  single.workers = 1;
+  SceneDef pn = single;
   pn.settings.surface = PLEAT_SURFACE_PN;
   Progress progress("measuring, frame", def.frames * (repeat * ((folds ? 3u : 2u) + (peer ? 1u : 0u)) + 1));
 
@@ -220,7 +222,7 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
     allocations += run.allocations;
     frames.push_back(std::move(run.frames));
     if (peer) peer_frames.push_back(time_frames(*peer, def, progress).frames);
-    systems.push_back(time_stages(api, def, progress));
+    systems.push_back(time_stages(api, single, progress));
     groups.push_back(by_group(systems.back()));
     if (folds) pn_groups.push_back(by_group(time_stages(api, pn, progress)));
   }

@@ -37,7 +37,7 @@ int run_program(int argc, char** argv) {
   request.scene = "skirt_kick";
   uint32_t repeat = 5;
   uint32_t starts = 1;
-  int threads = 1;
+  uint32_t threads = 1;
   std::filesystem::path json_path;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
   app.add_option("--clip", request.clip, "in place of the scene's motion")->type_name("BVH");
@@ -52,7 +52,9 @@ int run_program(int argc, char** argv) {
   app.add_option_function<std::string>(
       "--surface", [&](const std::string& mode) { request.settings.push_back("surface=" + mode); },
       "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
-  app.add_option("--threads", threads, "the library uses one")->check(CLI::Range(1, 1))->capture_default_str();
+  app.add_option("--threads", threads, "that run cloths; systems are timed one by one with a single one")
+      ->check(CLI::Range(1u, PLEAT_MAX_WORKERS))
+      ->capture_default_str();
   std::string peer;
   app.add_option("--peer", peer, "in turn with Bullet's soft body, `bullet`, or `bullet:N` for N iterations, not 4")
       ->check(CLI::Validator([](std::string& text) { return parse_peer(text) ? "" : "not bullet or bullet:1..1000"; },
@@ -65,7 +67,8 @@ int run_program(int argc, char** argv) {
   }
 
   const pleat_api& api = pleat::demo::library();
-  const pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
+  pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
+  def.workers = threads;
   std::optional<pleat::demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
   const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat, parse_peer(peer));

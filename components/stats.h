@@ -18,6 +18,14 @@ struct Stats {
   std::uint64_t fallbacks = 0;           // of these, ticks without a good end
   std::uint64_t sleeping = 0;            // cloths that slept through the tick
   std::uint64_t nonfinite_restored = 0;  // particles put back to where they were finite
+
+  Stats& operator+=(const Stats& b) {
+    particle_contacts += b.particle_contacts, face_contacts += b.face_contacts, self_contacts += b.self_contacts;
+    contacts_dropped += b.contacts_dropped, edges_skipped += b.edges_skipped, fast_bodies += b.fast_bodies;
+    stiffness_lowered += b.stiffness_lowered, teleports += b.teleports, rollbacks += b.rollbacks;
+    fallbacks += b.fallbacks, sleeping += b.sleeping, nonfinite_restored += b.nonfinite_restored;
+    return *this;
+  }
 };
 
 }  // namespace pleat

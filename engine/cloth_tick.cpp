@@ -49,7 +49,7 @@ void run_substep(ClothTick& t) {
     run_phase(t, Phase::kStage);
   }
   copy(t.predicted, t.position, n);
-  t.world.contact_count = 0;
+  t.worker.contact_count = 0;
   run_phase(t, Phase::kContact);
   const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
   for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
@@ -89,14 +89,8 @@ StableStep stable_step(const ClothTick& t) {
           .air_damping = s.air_damping};
 }
 
-void report_lowered(ClothTick& t, std::uint32_t substeps) {
-  ++t.world.stats.stiffness_lowered;
-  if (t.cloth.said_lowered) return;
-  t.cloth.said_lowered = true;
-  t.world.log(PLEAT_LOG_WARNING, "a cloth's stiffness " + std::to_string(t.settings.stiffness) +
-                                     " N/m or bend_stiffness " + std::to_string(t.settings.bend_stiffness) +
-                                     " N m is more than " + std::to_string(substeps) +
-                                     " substeps a tick can carry: its stiffest edges act softer");
+void note(Notice& notice) {
+  if (notice == Notice::kNothing) notice = Notice::kDue;
 }
 
 std::uint32_t substeps_for(ClothTick& t, float dt) {
@@ -114,8 +108,12 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
     const std::uint32_t most = std::min(kStiffSubsteps * n, kMostSubsteps);
     n = std::min(stable.run(dt, n, most), most);
   }
-  if (n < least) ++t.world.stats.fast_bodies;
-  if (stable.run(dt, n, n) > n) report_lowered(t, n);
+  if (n < least) ++t.worker.stats.fast_bodies;
+  if (stable.run(dt, n, n) > n) {
+    ++t.worker.stats.stiffness_lowered;
+    t.cloth.lowered_at = n;
+    note(t.cloth.lowered);
+  }
   return n;
 }
 
@@ -125,7 +123,7 @@ void run_substeps(ClothTick& t, std::uint32_t n) {
   const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
   t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable_step(t).room(t.dt);
   t.trouble = false;
-  t.world.contact_count = 0;
+  t.worker.contact_count = 0;
   for (std::uint32_t s = 0; s < n && !t.trouble; ++s) {
     t.t0 = static_cast<float>(s) / static_cast<float>(n);
     t.t1 = static_cast<float>(s + 1) / static_cast<float>(n);
@@ -160,11 +158,8 @@ void fall_back(ClothTick& t) {
     carry.run();
   }
   for (std::size_t k = 0; k < pins; ++k) t.position.set(t.garment.pins[k], t.pin_next[k]);
-  ++t.world.stats.fallbacks;
-  if (t.cloth.said_fallback) return;
-  t.cloth.said_fallback = true;
-  t.world.log(PLEAT_LOG_WARNING,
-              "a cloth broke in a tick and in its repetitions with more substeps: it stays as it was");
+  ++t.worker.stats.fallbacks;
+  note(t.cloth.fallback);
 }
 
 }  // namespace
@@ -180,11 +175,11 @@ void run_phase(ClothTick& t, Phase phase) {
   }
 }
 
-void tick_cloth(World& world, ClothRecord& cloth, float dt) {
-  ClothTick t(world, cloth);
+void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
+  ClothTick t(world, worker, cloth);
   t.frame_dt = dt;
   if (sleeps_on(t)) {
-    ++world.stats.sleeping;
+    ++worker.stats.sleeping;
     cloth.substeps_taken = 0;
     cloth.contacts = {};
     return;
@@ -193,24 +188,39 @@ void tick_cloth(World& world, ClothRecord& cloth, float dt) {
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
   copy(t.start_velocity, t.velocity, t.garment.particle_count);
-  const Stats before = world.stats;
+  const Stats before = worker.stats;
   run_substeps(t, n);
   if (t.trouble) {
     for (int retry = 0; t.trouble && retry < kRetries; ++retry) {
-      world.stats = before;
+      worker.stats = before;
       roll_back(t);
       run_substeps(t, n *= 2);
     }
-    ++world.stats.rollbacks;
+    ++worker.stats.rollbacks;
     if (t.trouble) fall_back(t);
   }
   run_phase(t, Phase::kFrameEnd);
   cloth.substeps_taken = n;
-  cloth.contacts = {.particle = world.stats.particle_contacts - before.particle_contacts,
-                    .face = world.stats.face_contacts - before.face_contacts,
-                    .self = world.stats.self_contacts - before.self_contacts,
-                    .dropped = world.stats.contacts_dropped - before.contacts_dropped};
-  world.substeps += n;
+  cloth.contacts = {.particle = worker.stats.particle_contacts - before.particle_contacts,
+                    .face = worker.stats.face_contacts - before.face_contacts,
+                    .self = worker.stats.self_contacts - before.self_contacts,
+                    .dropped = worker.stats.contacts_dropped - before.contacts_dropped};
+  worker.substeps += n;
+}
+
+void report_troubles(const World& world, ClothRecord& cloth) {
+  if (cloth.lowered == Notice::kDue) {
+    cloth.lowered = Notice::kSaid;
+    world.log(PLEAT_LOG_WARNING, "a cloth's stiffness " + std::to_string(cloth.settings.stiffness) +
+                                     " N/m or bend_stiffness " + std::to_string(cloth.settings.bend_stiffness) +
+                                     " N m is more than " + std::to_string(cloth.lowered_at) +
+                                     " substeps a tick can carry: its stiffest edges act softer");
+  }
+  if (cloth.fallback == Notice::kDue) {
+    cloth.fallback = Notice::kSaid;
+    world.log(PLEAT_LOG_WARNING,
+              "a cloth broke in a tick and in its repetitions with more substeps: it stays as it was");
+  }
 }
 
 }  // namespace pleat

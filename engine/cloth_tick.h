@@ -15,8 +15,11 @@ inline void copy(const Vec3View& to, const ConstVec3View& from, std::size_t coun
   std::copy_n(from.y, count, to.y);
   std::copy_n(from.z, count, to.z);
 }
-/// Advances the cloth by dt seconds. A tick that ends badly (rows of the phase `check`) begins anew with twice the
-/// substeps, twice at most; then the cloth stays as it was.
-void tick_cloth(World& world, ClothRecord& cloth, float dt);
+/// Advances the cloth by dt seconds, on any thread: it changes nothing but the cloth and the worker. A tick that ends
+/// badly (rows of the phase `check`) begins anew with twice the substeps, twice at most; then the cloth stays as it
+/// was.
+void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt);
+/// Logs what went wrong in it, each once: by the thread that steps the world.
+void report_troubles(const World& world, ClothRecord& cloth);
 
 }  // namespace pleat

@@ -44,7 +44,7 @@ PosedCloth posed(const World& world, const ClothRecord& cloth) {
 }
 
 std::size_t crossings(const World& world, const ClothRecord& edges, const ClothRecord& faces) {
-  const Crossings search{posed(world, edges), posed(world, faces), &edges == &faces, &world.near_scratch};
+  const Crossings search{posed(world, edges), posed(world, faces), &edges == &faces, &world.workers[0].near_scratch};
   assert(search.validate());
   return search.run();
 }

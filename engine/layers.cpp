@@ -31,13 +31,6 @@ void make_layer_room(World& world, const ClothRecord& cloth) {
   at_least(layers.sought_at, particles);
   at_least(layers.pairs, SelfColumns::kPairsPerParticle * particles);
   at_least(layers.clothes, world.clothes.size());
-  if (cloth.settings.layer == 0) return;
-  const Garment& g = cloth.garment();
-  NearScratch& scratch = world.near_scratch;
-  at_least(scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
-  at_least(scratch.middle, g.edge_count);
-  at_least(scratch.pose, g.particle_count);
-  scratch.grid.make_room(NearSearch::most_points(g));
 }
 
 void begin_layers(World& world) {

@@ -56,6 +56,7 @@ enum {
 /* Sizes beyond these are refused: 32-bit indices of the drawn surface stay far from overflow. */
 #define PLEAT_MAX_PARTICLES 262144u
 #define PLEAT_MAX_TRIANGLES 524288u
+#define PLEAT_MAX_WORKERS 64u
 
 /* ---- handles: {index, generation}; an all-zero id is never valid ---------------------------------------------- */
 
@@ -81,6 +82,11 @@ typedef void (*pleat_log_fn)(uint32_t level, const char* line, void* user);
 /* Called before (begin = 1) and after (begin = 0) each system of the schedule, for a host's profiler. */
 typedef void (*pleat_stage_fn)(const char* system, int begin, void* user);
 
+/* A task for one of `workers`, and what runs tasks 0 .. count - 1, each once, on any threads, and returns when all are
+ * done. worker: less than the world's `workers`; no two tasks that run at a time may have the same. */
+typedef void (*pleat_task_fn)(uint32_t index, uint32_t worker, void* context);
+typedef void (*pleat_parallel_for_fn)(pleat_task_fn task, uint32_t count, void* context, void* user);
+
 typedef void (*pleat_text_fn)(const char* line, void* user);
 typedef void (*pleat_line_fn)(const float from[3], const float to[3], uint32_t rgba, void* user);
 
@@ -102,6 +108,10 @@ typedef struct pleat_world_def {
   float gust;           /* m/s, how far the air wavers about `wind`: root mean square on each axis; default 0 */
   float gust_frequency; /* Hz, band limit: at it the wavering is a sixth, beyond it soon nothing; default 2 */
   uint32_t gust_seed;   /* the same seed blows the same gusts, at any frame rate; default 0 */
+  uint32_t workers;     /* how many cloths run at a time, at most PLEAT_MAX_WORKERS; default 1: all on the thread that
+                           steps the world. Results are the same for any number. `stage` is called from all of them */
+  pleat_parallel_for_fn parallel_for; /* null (default): by threads of the world's own, where workers > 1 */
+  void* parallel_user;
 } pleat_world_def;
 
 /* ---- meshes ---------------------------------------------------------------------------------------------------- */

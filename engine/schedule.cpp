@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 
 #include "engine/cloth_tick.h"
 #include "engine/layers.h"
@@ -24,6 +25,46 @@ Plan plan_of(const World& world, const ClothRecord& cloth) {
     if (rows[r].left_out(world, cloth) == nullptr) plan |= Plan{1} << r;
   }
   return plan;
+}
+
+/// The cloths of a layer, which do not see each other.
+struct LayerTasks {
+  World& world;
+  std::uint32_t layer;
+  float dt;
+
+  static void tick_one(std::uint32_t index, std::uint32_t worker, void* context) {
+    const auto& [world, layer, dt] = *static_cast<const LayerTasks*>(context);
+    if (index >= world.clothes.size() || worker >= world.workers.size()) return;  // a host's mistake
+    ClothRecord& cloth = world.clothes[index];
+    if (cloth.settings.layer != layer || cloth.last_tick == world.ticks) return;
+    cloth.last_tick = world.ticks;
+    tick_cloth(world, world.workers[worker], cloth, dt);
+  }
+};
+
+void tick_layer(World& world, std::uint32_t layer, float dt) {
+  LayerTasks tasks{world, layer, dt};
+  const auto count = static_cast<std::uint32_t>(world.clothes.size());
+  if (world.pool != nullptr) {
+    world.pool->run(LayerTasks::tick_one, count, &tasks);
+  } else if (world.workers.size() > 1) {
+    world.def.parallel_for(LayerTasks::tick_one, count, &tasks, world.def.parallel_user);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    LayerTasks::tick_one(i, 0, &tasks);  // all, or what a host forgot
+    if (world.clothes[i].settings.layer != layer) continue;
+    report_troubles(world, world.clothes[i]);
+    publish_layer(world, i);
+  }
+}
+
+/// What the workers have counted goes to the world.
+void collect_counts(World& world) {
+  for (Worker& worker : world.workers) {
+    world.stats += std::exchange(worker.stats, {});
+    world.substeps += std::exchange(worker.substeps, 0);
+  }
 }
 
 /// What was next becomes previous: a pin or body that is not moved again stands still.
@@ -79,8 +120,9 @@ const char* phase_name(Phase phase) {
 
 }  // namespace
 
-ClothTick::ClothTick(World& w, ClothRecord& c)
+ClothTick::ClothTick(World& w, Worker& scratch, ClothRecord& c)
     : world(w),
+      worker(scratch),
       cloth(c),
       garment(c.garment()),
       settings(c.settings),
@@ -118,15 +160,16 @@ void refresh(World& world, ClothRecord& cloth) {
                              .inverse_mass = world.particles.inverse_mass.data() + cloth.particle_begin};
   assert(bound.validate());
   cloth.rates = bound.run();
-  cloth.said_lowered = false;
+  cloth.lowered = Notice::kNothing;
   wake(cloth);
   cloth.plan = plan_of(world, cloth);
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);
 #endif
-  ClothTick t(world, cloth);
+  ClothTick t(world, world.workers[0], cloth);
   t.t1 = t.t0;  // between ticks bodies are where the last one left them
   run_phase(t, Phase::kFrameEnd);
+  collect_counts(world);
 }
 
 void replan(World& world) {
@@ -141,20 +184,15 @@ void tick(World& world, float dt) {
   ++world.ticks;
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;
   for (ClothRecord& cloth : world.clothes) {
-    ClothTick t(world, cloth);
+    ClothTick t(world, world.workers[0], cloth);
     t.frame_dt = dt;
     run_phase(t, Phase::kFrameBegin);
   }
   update_bodies(world);
   begin_layers(world);
   const std::uint32_t top = top_layer(world);
-  for (std::uint32_t layer = 0; layer <= top; ++layer) {
-    for (std::uint32_t i = 0; i < world.clothes.size(); ++i) {
-      if (world.clothes[i].settings.layer != layer) continue;
-      tick_cloth(world, world.clothes[i], dt);
-      publish_layer(world, i);
-    }
-  }
+  for (std::uint32_t layer = 0; layer <= top; ++layer) tick_layer(world, layer, dt);
+  collect_counts(world);
   world.time += static_cast<double>(dt);
   settle_poses(world);
 }

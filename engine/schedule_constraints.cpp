@@ -31,8 +31,8 @@ void limit_stretch(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .position = t.position,
-                        .packed = t.world.packed_particles.data()},
-      t.world.stats);
+                        .packed = t.worker.packed_particles.data()},
+      t.worker.stats);
 }
 
 const char* with_stretch_limit(const World&, const ClothRecord& c) {
@@ -50,7 +50,7 @@ void respond(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .face_response = static_cast<FaceResponse>(t.settings.face_response),
                         .position = t.position},
-      t.world.stats);
+      t.worker.stats);
 }
 #endif
 
@@ -106,8 +106,8 @@ constexpr Row kRows[] = {
                           .distance = t.settings.self_distance,
                           .pairs = self_pairs_of(t),
                           .sought_at = w.self.sought_at.view().from(t.cloth.particle_begin),
-                          .scratch = &w.near_scratch},
-           w.stats);
+                          .scratch = &t.worker.near_scratch},
+           t.worker.stats);
      }},
     {Phase::kContact, "self_detection", with_itself,
      [](ClothTick& t) {
@@ -119,7 +119,7 @@ constexpr Row kRows[] = {
                          .friction = t.settings.friction,
                          .dt = t.dt,
                          .contacts = contacts_of(t)},
-           t.world.stats);
+           t.worker.stats);
      }},
     {Phase::kContact, "layer_candidates", with_layers,
      [](ClothTick& t) {
@@ -135,8 +135,8 @@ constexpr Row kRows[] = {
                            .pairs = layer_pairs_of(t),
                            .sought_at = w.layers.sought_at.view().from(t.cloth.particle_begin),
                            .t_sought = &t.cloth.layers_sought,
-                           .scratch = &w.near_scratch},
-           w.stats);
+                           .scratch = &t.worker.near_scratch},
+           t.worker.stats);
      }},
     {Phase::kContact, "layer_detection", with_layers,
      [](ClothTick& t) {
@@ -151,7 +151,7 @@ constexpr Row kRows[] = {
                           .friction = t.settings.friction,
                           .dt = t.dt,
                           .contacts = contacts_of(t)},
-           t.world.stats);
+           t.worker.stats);
      }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
@@ -159,33 +159,31 @@ constexpr Row kRows[] = {
      }},
     {Phase::kContact, "capsule_candidates", with_capsules,
      [](ClothTick& t) {
-       World& w = t.world;
        run(CapsuleCandidates{.garment = &t.garment,
                              .position = t.position,
                              .previous = t.previous,
-                             .capsules = w.capsule_poses.data(),
-                             .capsule_count = w.capsule_pose_count,
+                             .capsules = t.worker.capsule_poses.data(),
+                             .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
                              .first = t.t0 == 0.0f,
-                             .candidates = &w.capsule_candidates,
-                             .scratch = &w.capsule_scratch});
+                             .candidates = &t.worker.capsule_candidates,
+                             .scratch = &t.worker.capsule_scratch});
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {
-       World& w = t.world;
        run(CapsuleDetection{.garment = &t.garment,
                             .position = t.position,
                             .previous = t.previous,
                             .inverse_mass = t.inverse_mass,
-                            .capsules = w.capsule_poses.data(),
-                            .capsule_count = w.capsule_pose_count,
+                            .capsules = t.worker.capsule_poses.data(),
+                            .capsule_count = t.worker.capsule_pose_count,
                             .thickness = t.settings.thickness,
                             .friction = t.settings.friction,
                             .dt = t.dt,
-                            .scratch = &w.capsule_scratch,
-                            .candidates = &w.capsule_candidates,
+                            .scratch = &t.worker.capsule_scratch,
+                            .candidates = &t.worker.capsule_candidates,
                             .contacts = contacts_of(t)},
-           w.stats);
+           t.worker.stats);
      }},
     {Phase::kContact, "plane_detection", with_planes,
      [](ClothTick& t) {
@@ -202,7 +200,7 @@ constexpr Row kRows[] = {
                           .friction = t.settings.friction,
                           .dt = t.dt,
                           .contacts = contacts_of(t)},
-           w.stats);
+           t.worker.stats);
      }},
     {Phase::kContact, "mesh_candidates", with_meshes,
      [](ClothTick& t) {
@@ -218,7 +216,7 @@ constexpr Row kRows[] = {
                           .t1 = t.t1,
                           .thickness = t.settings.thickness,
                           .dt = t.dt,
-                          .candidates = &w.mesh_candidates});
+                          .candidates = &t.worker.mesh_candidates});
      }},
     {Phase::kContact, "mesh_detection", with_meshes,
      [](ClothTick& t) {
@@ -229,14 +227,14 @@ constexpr Row kRows[] = {
                          .inverse_mass = t.inverse_mass,
                          .bodies = w.bodies.get(),
                          .meshes = w.mesh_pointers.data(),
-                         .candidates = &w.mesh_candidates,
+                         .candidates = &t.worker.mesh_candidates,
                          .t0 = t.t0,
                          .t1 = t.t1,
                          .thickness = t.settings.thickness,
                          .friction = t.settings.friction,
                          .dt = t.dt,
                          .contacts = contacts_of(t)},
-           w.stats);
+           t.worker.stats);
      }},
 #endif
 
@@ -282,13 +280,13 @@ constexpr Row kRows[] = {
 #endif
     {Phase::kSubstepEnd, "finite_guard", always,
      [](ClothTick& t) {
-       const std::uint64_t before = t.world.stats.nonfinite_restored;
+       const std::uint64_t before = t.worker.stats.nonfinite_restored;
        run(FiniteGuard{.particle_count = t.garment.particle_count,
                        .previous = t.previous,
                        .position = t.position,
                        .velocity = t.velocity},
-           t.world.stats);
-       t.trouble = t.trouble || t.world.stats.nonfinite_restored != before;
+           t.worker.stats);
+       t.trouble = t.trouble || t.worker.stats.nonfinite_restored != before;
      }},
     {Phase::kCheck, "energy_check", always, check_energy},
     {Phase::kCheck, "sleep",

@@ -192,7 +192,7 @@ constexpr Row kRows[] = {
      [](const World&, const ClothRecord& c) { return implicit(c.settings) ? kNeeded : "another integrator"; },
      [](ClothTick& t) {
        run(ImplicitIntegration{.garment = &t.garment,
-                               .matrix = t.cloth.source->implicit.get(),
+                               .matrix = t.cloth.source->implicit[t.worker.number].get(),
                                .inverse_mass = t.inverse_mass,
                                .force = t.force,
                                .law = t.edge_law(),

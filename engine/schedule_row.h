@@ -53,15 +53,14 @@ inline void move_capsules(ClothTick& t, float reach) {
                      .reach = reach,
                      .t0 = t.t0,
                      .t1 = t.t1,
-                     .poses = w.capsule_poses.data(),
-                     .capacity = static_cast<std::uint32_t>(w.capsule_poses.size()),
-                     .pose_count = &w.capsule_pose_count},
-      w.stats);
+                     .poses = t.worker.capsule_poses.data(),
+                     .capacity = static_cast<std::uint32_t>(t.worker.capsule_poses.size()),
+                     .pose_count = &t.worker.capsule_pose_count},
+      t.worker.stats);
 }
 
 inline ContactList contacts_of(ClothTick& t) {
-  World& w = t.world;
-  return {w.contacts.data(), static_cast<std::uint32_t>(w.contacts.size()), &w.contact_count};
+  return {t.worker.contacts.data(), static_cast<std::uint32_t>(t.worker.contacts.size()), &t.worker.contact_count};
 }
 inline NearPairList self_pairs_of(ClothTick& t) {
   constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;

@@ -44,8 +44,8 @@ const char* with_fold_relaxation(const World&, const ClothRecord& c) {
 float surface_clearance(const ClothTick& t) { return 0.5f * t.settings.thickness; }
 
 ClearanceList clearance_planes(ClothTick& t) {
-  World& w = t.world;
-  return {w.clearance_planes.data(), static_cast<std::uint32_t>(w.clearance_planes.size()), &w.clearance_plane_count};
+  return {t.worker.clearance_planes.data(), static_cast<std::uint32_t>(t.worker.clearance_planes.size()),
+          &t.worker.clearance_plane_count};
 }
 #endif
 
@@ -67,8 +67,8 @@ constexpr Row kRows[] = {
        run(FoldSides{.garment = &t.garment,
                      .position = t.position,
                      .normal = t.normal,
-                     .choices = t.world.fold_choices,
-                     .springs = t.world.fold_springs,
+                     .choices = t.worker.fold_choices,
+                     .springs = t.worker.fold_springs,
                      .kept = t.frame_dt > 0.0f ? FoldSides::kept_after(t.frame_dt) : 0.0f,
                      .side = t.fold_side});
      }},
@@ -90,7 +90,7 @@ constexpr Row kRows[] = {
                           .normal = t.normal,
                           .fold = t.fold,
                           .fold_height = t.fold_height,
-                          .scratch = t.world.fold_scratch.view()});
+                          .scratch = t.worker.fold_scratch.view()});
      }},
     {Phase::kFrameEnd, "tessellation", always,
      [](ClothTick& t) {
@@ -112,7 +112,7 @@ constexpr Row kRows[] = {
                         .position = t.position,
                         .normal = {},
                         .fold = {},
-                        .drawn_position = t.world.footprint.view()});
+                        .drawn_position = t.worker.footprint.view()});
      }},
     {Phase::kFrameEnd, "surface_capsules", with_capsules,
      [](ClothTick& t) {
@@ -123,13 +123,13 @@ constexpr Row kRows[] = {
        World& w = t.world;
        run(MeshClearance{.garment = &t.garment,
                          .pattern = t.cloth.pattern(),
-                         .footprint = w.footprint.view(),
+                         .footprint = t.worker.footprint.view(),
                          .bodies = w.bodies.get(),
                          .meshes = w.mesh_pointers.data(),
                          .t = t.t1,
                          .clearance = surface_clearance(t),
-                         .near = w.near_triangles.data(),
-                         .near_capacity = static_cast<std::uint32_t>(w.near_triangles.size()),
+                         .near = t.worker.near_triangles.data(),
+                         .near_capacity = static_cast<std::uint32_t>(t.worker.near_triangles.size()),
                          .planes = clearance_planes(t),
                          .drawn_position = t.drawn_position});
      }},
@@ -138,9 +138,9 @@ constexpr Row kRows[] = {
        World& w = t.world;
        run(SurfaceClearance{.garment = &t.garment,
                             .pattern = t.cloth.pattern(),
-                            .footprint = w.footprint.view(),
-                            .capsules = w.capsule_poses.data(),
-                            .capsule_count = w.capsules.size() != 0 ? w.capsule_pose_count : 0,
+                            .footprint = t.worker.footprint.view(),
+                            .capsules = t.worker.capsule_poses.data(),
+                            .capsule_count = w.capsules.size() != 0 ? t.worker.capsule_pose_count : 0,
                             .half_spaces = w.planes.data(),
                             .half_space_count = w.planes.size(),
                             .t = t.t1,

@@ -23,6 +23,7 @@ enum class Phase : std::uint32_t {
 /// One cloth during one tick: the views of its ranges, and where in the tick it is.
 struct ClothTick {
   World& world;
+  Worker& worker;
   ClothRecord& cloth;
   const Garment& garment;
   const pleat_cloth_settings& settings;
@@ -44,7 +45,7 @@ struct ClothTick {
   Vec3View normal, fold, drawn_position, drawn_normal, drawn_tangent;  // null where no cloth needs them
   float *fold_height = nullptr, *fold_side = nullptr, *drawn_handedness = nullptr;
 
-  ClothTick(World& w, ClothRecord& c);
+  ClothTick(World& w, Worker& scratch, ClothRecord& c);
   EdgeLaw edge_law() const { return {.stiffness = settings.stiffness, .buckling = settings.buckling_strain}; }
 };
 

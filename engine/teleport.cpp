@@ -67,7 +67,7 @@ void teleport(ClothTick& t) {
     found = jump.run();
     if (found) carry(t, *found), report_jump(t, *found);
   }
-  if (declared || found) ++t.world.stats.teleports;
+  if (declared || found) ++t.worker.stats.teleports;
 }
 
 }  // namespace pleat

@@ -105,19 +105,13 @@ World::World(const pleat_world_def& definition)
       meshes(&memory),
       planes(&memory),
       mesh_pointers(&memory),
-      packed_particles(&memory),
-      capsule_poses(&memory),
-      contacts(&memory),
-      capsule_candidates(&memory),
-      capsule_scratch(&memory),
-      mesh_candidates(&memory),
-      near_scratch(&memory),
-      fold_choices(&memory),
-      fold_springs(&memory),
-      footprint(&memory),
-      clearance_planes(&memory),
-      near_triangles(&memory),
-      fold_scratch(&memory) {}
+      workers(&memory) {
+  workers.reserve(def.workers);
+  for (std::uint32_t k = 0; k < def.workers; ++k) workers.emplace_back(k, &memory);
+  if (def.workers == 1 || def.parallel_for != nullptr) return;
+  std::pmr::polymorphic_allocator<> allocator(&memory);
+  pool = {allocator.new_object<ThreadPool>(def.workers), MemoryDelete{&memory}};
+}
 
 World::~World() = default;
 

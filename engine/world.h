@@ -9,23 +9,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "components/capsule_candidates.h"
-#include "components/clearance_plane.h"
 #include "components/colliders.h"
-#include "components/contacts.h"
-#include "components/fold_choice.h"
 #include "components/frequency_rates.h"
 #include "components/garment.h"
-#include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
 #include "components/particles.h"
-#include "components/stats.h"
 #include "components/surface.h"
 #include "components/tessellation_pattern.h"
+#include "engine/jobs.h"
 #include "engine/memory.h"
 #include "engine/pleat.h"
 #include "engine/registry.h"
+#include "engine/worker.h"
 #include "systems/implicit_solver.h"
 
 namespace pleat {
@@ -38,8 +35,8 @@ inline constexpr std::uint32_t kLevelCount = PLEAT_LEVEL_MAX + 1;
 struct GarmentRecord {
   Garment garment;
   std::array<std::optional<TessellationPattern>, kLevelCount> patterns;
-  std::unique_ptr<ImplicitMatrix> implicit;  // made for the first cloth that integrates by implicit Euler
-  std::uint32_t users = 0;                   // cloths cut from it
+  std::vector<std::unique_ptr<ImplicitMatrix>> implicit;  // one a worker, where a cloth integrates by implicit Euler
+  std::uint32_t users = 0;                                // cloths cut from it
 
   explicit GarmentRecord(Garment&& g) : garment(std::move(g)) {}
 };
@@ -48,6 +45,9 @@ struct GarmentRecord {
 struct ContactCounts {
   std::uint64_t particle = 0, face = 0, self = 0, dropped = 0;
 };
+
+/// A line for the log that a worker leaves to the thread that steps the world, which says it once.
+enum class Notice : std::uint8_t { kNothing, kDue, kSaid };
 
 /// Which rows of the schedule a cloth runs: bit i is row i.
 using Plan = std::uint64_t;
@@ -61,14 +61,15 @@ struct ClothRecord {
   std::uint32_t self_pair_count = kNone, layer_pair_count = kNone;  // none were sought yet
   float layers_sought = 0.0f;                                       // for which fraction of the tick the latter were
   Plan plan = 0;
-  FrequencyRates rates;       // of these masses
-  bool said_lowered = false;  // that stiffness is lowered: once for each setting
-  bool said_jump = false;     // that its pins jumped
-  bool said_fallback = false;
+  FrequencyRates rates;  // of these masses
+  Notice lowered = Notice::kNothing, fallback = Notice::kNothing;
+  std::uint32_t lowered_at = 0;              // substeps with which the stiffness was lowered
+  bool said_jump = false;                    // that its pins jumped
   Vec3 pin_velocity;                         // m/s, mean of the last tick
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
   float settling = 0.25f;                    // s, for how much longer a start that is stretched is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
+  std::uint64_t last_tick = 0;               // `ticks` of the world when it last ran
 
   const Garment& garment() const { return source->garment; }
   /// Null where smoothing is compiled out.
@@ -131,21 +132,8 @@ struct World {
   std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
 
-  // Scratch of a tick, one cloth at a time; sized when the scene changes, empty until something needs it.
-  Column<PackedParticle> packed_particles;
-  Column<CapsulePose> capsule_poses;
-  Column<ContactRow> contacts;
-  CapsuleCandidateColumns capsule_candidates;
-  CapsuleScratch capsule_scratch;
-  MeshCandidateColumns mesh_candidates;
-  mutable NearScratch near_scratch;  // empty unless cloth touches cloth
-  Column<FoldChoice> fold_choices;   // empty unless a cloth folds
-  Column<FoldSprings> fold_springs;
-  Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
-  Column<ClearancePlane> clearance_planes;
-  Column<NearTriangle> near_triangles;
-  FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
-  std::uint32_t capsule_pose_count = 0, contact_count = 0, clearance_plane_count = 0;
+  mutable std::pmr::vector<Worker> workers;        // at least one; scratch, also for questions
+  std::unique_ptr<ThreadPool, MemoryDelete> pool;  // where there are more and the host has no parallel_for
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;

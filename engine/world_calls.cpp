@@ -14,6 +14,7 @@ const pleat_world_def& default_world() {
     d.air_density = 1.225f;
     d.max_substep = 1.0f / 480.0f;
     d.gust_frequency = 2.0f;
+    d.workers = 1;
     return d;
   }();
   return def;
@@ -46,6 +47,7 @@ pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
     need_range("air_density", def.air_density, 0.0, 1e4);
     need_range("max_substep", def.max_substep, 1e-5, 1.0);
     need_gust(def.gust, def.gust_frequency);
+    need_range("workers", def.workers, 1, PLEAT_MAX_WORKERS);
     if ((def.allocate == nullptr) != (def.free == nullptr)) refuse("allocate and free must both be given, or neither");
     HostMemory memory(def.allocate, def.free, def.memory_user);
     *world = reinterpret_cast<pleat_world*>(std::pmr::polymorphic_allocator<>(&memory).new_object<World>(def));

@@ -53,6 +53,7 @@ Scene::Scene(const pleat_api& api, SceneDef scene_def, pleat_stage_fn stage, voi
   world_def.log_user = this;
   world_def.stage = stage;
   world_def.stage_user = stage_user;
+  world_def.workers = def().workers;
   check(api_.world_create(&world_def, &world_), "world");
   try {
     create_garment();

@@ -46,6 +46,8 @@ TEST(WorldDef, OneBadFieldIsRefusedByName) {
     expect_world_refused("gust_frequency", [&](pleat_world_def& d) { d.gust_frequency = bad; });
   }
   expect_world_refused("max_substep", [](pleat_world_def& d) { d.max_substep = 0.0f; });
+  expect_world_refused("workers", [](pleat_world_def& d) { d.workers = 0; });
+  expect_world_refused("workers", [](pleat_world_def& d) { d.workers = PLEAT_MAX_WORKERS + 1; });
   expect_world_refused("size", [](pleat_world_def& d) { d.size = 0; });
   expect_world_refused("size", [](pleat_world_def& d) { d.size += 8; });
   expect_world_refused("allocate", [](pleat_world_def& d) { d.allocate = &Services::allocate; });

@@ -42,7 +42,7 @@ TEST(Layers, LeftOutUnlessAskedFor) {
   EXPECT_TRUE(scene.explain("layer_candidates").ends_with("left out: layer is 0"));
   EXPECT_TRUE(scene.explain("layer_detection").ends_with("left out: layer is 0"));
   EXPECT_EQ(scene.inside().layers.begin.size() + scene.inside().layers.pairs.size(), 0u);
-  EXPECT_EQ(scene.inside().contacts.size(), 0u);
+  EXPECT_EQ(scene.inside().workers[0].contacts.size(), 0u);
   Scene inner;
   inner.cloth(inner.sheet(6), in_layer(1));
   EXPECT_TRUE(inner.explain("layer_detection").ends_with("left out: the innermost layer"));

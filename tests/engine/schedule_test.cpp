@@ -97,9 +97,9 @@ TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
     EXPECT_TRUE(scene.explain(name).ends_with("left out: no collider")) << scene.explain(name);
   }
   World& world = scene.inside();
-  EXPECT_EQ(world.contacts.size(), 0u);
-  EXPECT_EQ(world.capsule_poses.size(), 0u);
-  EXPECT_EQ(world.capsule_scratch.core.size(), 0u);
+  EXPECT_EQ(world.workers[0].contacts.size(), 0u);
+  EXPECT_EQ(world.workers[0].capsule_poses.size(), 0u);
+  EXPECT_EQ(world.workers[0].capsule_scratch.core.size(), 0u);
   EXPECT_EQ(world.bodies, nullptr);
 }
 
@@ -111,7 +111,7 @@ TEST(Schedule, CollidersArePlannedAnewWhenTheyComeAndGo) {
   EXPECT_TRUE(runs(scene.explain("collision_response")));
   EXPECT_TRUE(scene.explain("mesh_detection").ends_with("left out: no mesh body"));
   EXPECT_TRUE(scene.explain("mesh_clearance").ends_with("left out: no mesh body"));
-  EXPECT_GT(scene.inside().contacts.size(), 0u);
+  EXPECT_GT(scene.inside().workers[0].contacts.size(), 0u);
   scene.step();
   must(call::collider_destroy(scene, sphere));
   EXPECT_TRUE(scene.explain("capsule_detection").ends_with("left out: no collider"));
@@ -157,16 +157,16 @@ TEST(Schedule, FoldsAreRelaxedOnlyWhereAskedFor) {
   const pleat_garment sheet = scene.sheet(4);
   const pleat_cloth cloth = scene.cloth(sheet);
   EXPECT_TRUE(scene.explain("fold_relaxation").ends_with("left out: fold_sweeps = 0"));
-  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 0u);
+  EXPECT_EQ(scene.inside().workers[0].fold_scratch.freedom.size(), 0u);
   pleat_cloth_settings s = scene.settings(cloth);
   s.fold_sweeps = 4, s.surface = PLEAT_SURFACE_PAPER;
   must(call::cloth_set(scene, cloth, &s));
   EXPECT_TRUE(scene.explain("fold_relaxation").ends_with("left out: folds of another surface, or none"));
-  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 0u);
+  EXPECT_EQ(scene.inside().workers[0].fold_scratch.freedom.size(), 0u);
   s.surface = PLEAT_SURFACE_PLEAT;
   must(call::cloth_set(scene, cloth, &s));
   EXPECT_TRUE(runs(scene.explain("fold_relaxation")));
-  EXPECT_EQ(scene.inside().fold_scratch.freedom.size(), 33u);
+  EXPECT_EQ(scene.inside().workers[0].fold_scratch.freedom.size(), 33u);
   scene.step();
 }
 #endif

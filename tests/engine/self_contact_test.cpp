@@ -32,7 +32,7 @@ TEST(SelfContact, LeftOutUnlessAskedFor) {
   EXPECT_TRUE(scene.explain("self_candidates").ends_with("left out: self_distance is 0"));
   EXPECT_TRUE(scene.explain("self_detection").ends_with("left out: self_distance is 0"));
   EXPECT_EQ(scene.inside().self.pairs.size(), 0u);
-  EXPECT_EQ(scene.inside().contacts.size(), 0u);
+  EXPECT_EQ(scene.inside().workers[0].contacts.size(), 0u);
   Scene other;
   other.cloth(other.sheet(6), touching_itself());
   EXPECT_TRUE(other.explain("self_detection").ends_with("run"));

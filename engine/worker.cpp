@@ -1,0 +1,90 @@
+#include "engine/worker.h"
+
+#include <algorithm>
+
+#include "engine/world.h"
+#ifdef PLEAT_WITH_COLLISION
+#include "systems/near_search.h"
+#endif
+
+namespace pleat {
+namespace {
+
+constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
+constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
+constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of cloth that touches cloth
+constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
+constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
+constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
+
+template <class Column>
+void at_least(Column& column, std::size_t size) {
+  if (column.size() < size) column.resize(size);
+}
+
+void make_surface_room(Worker& worker, const ClothRecord& cloth) {
+  const Garment& g = cloth.garment();
+  if (cloth.settings.surface != PLEAT_SURFACE_PLEAT || cloth.pattern() == nullptr) return;
+  at_least(worker.fold_choices, g.edge_count);
+  at_least(worker.fold_springs, (std::size_t{g.face_count} + kLanes - 1) / kLanes);
+  if (cloth.settings.fold_sweeps == 0) return;
+  FoldScratch& scratch = worker.fold_scratch;
+  at_least(scratch.middle, g.edge_count);
+  at_least(scratch.pull, g.edge_count);
+  at_least(scratch.half_length, g.edge_count);
+  at_least(scratch.freedom, g.edge_count);
+}
+
+#ifdef PLEAT_WITH_COLLISION
+void make_cloth_contact_room(Worker& worker, const ClothRecord& cloth) {
+  const bool touches_itself = cloth.settings.self_distance > 0.0f;
+  if (!touches_itself && cloth.settings.layer == 0) return;
+  const Garment& g = cloth.garment();
+  if (touches_itself || cloth.settings.layer > 1) {
+    at_least(worker.contacts, kSelfContactsPerParticle * std::size_t{g.particle_count});
+  }
+  NearScratch& scratch = worker.near_scratch;
+  at_least(scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
+  at_least(scratch.middle, g.edge_count);
+  if (cloth.settings.layer > 0) at_least(scratch.pose, g.particle_count);
+  scratch.grid.make_room(NearSearch::most_points(g));
+}
+
+void make_body_contact_room(Worker& worker, const World& world, const ClothRecord& cloth) {
+  if (world.colliders.empty()) return;
+  const Garment& g = cloth.garment();
+  at_least(worker.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
+  at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
+  CapsuleCandidateColumns& candidates = worker.capsule_candidates;
+  at_least(candidates.near, FeatureWords(g).end * worker.capsule_poses.size());
+  at_least(candidates.sought, worker.capsule_poses.size());
+  at_least(candidates.anchor, g.particle_count);
+  CapsuleScratch& scratch = worker.capsule_scratch;
+  at_least(scratch.core, g.particle_count);
+  at_least(scratch.ends, g.particle_count);
+  at_least(scratch.edge, g.edge_count);
+  if (!world.meshes.empty()) {
+    at_least(worker.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
+    at_least(worker.mesh_candidates.anchor, g.particle_count);
+    at_least(worker.mesh_candidates.drift, g.particle_count);
+  }
+  if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
+    at_least(worker.footprint, pattern->vertex_count);
+    at_least(worker.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
+    for (const MeshRecord& body : world.meshes) at_least(worker.near_triangles, body.mesh.triangles.size() / 3);
+  }
+}
+#endif
+
+}  // namespace
+
+void make_room(Worker& worker, [[maybe_unused]] const World& world, const ClothRecord& cloth) {
+  at_least(worker.packed_particles, cloth.garment().particle_count);
+  make_surface_room(worker, cloth);
+#ifdef PLEAT_WITH_COLLISION
+  make_cloth_contact_room(worker, cloth);
+  make_body_contact_room(worker, world, cloth);
+#endif
+}
+
+}  // namespace pleat

@@ -1,0 +1,60 @@
+// What one worker needs to run cloths, one at a time.
+#pragma once
+
+#include "components/capsule_candidates.h"
+#include "components/clearance_plane.h"
+#include "components/contacts.h"
+#include "components/fold_choice.h"
+#include "components/mesh_candidates.h"
+#include "components/near_pairs.h"
+#include "components/particles.h"
+#include "components/stats.h"
+#include "components/surface.h"
+
+namespace pleat {
+
+/// Scratch of a tick, sized for the largest cloth when the scene changes, empty until something needs it; and what its
+/// cloths have counted since the tick began.
+struct Worker {
+  Column<PackedParticle> packed_particles;
+  Column<CapsulePose> capsule_poses;
+  CapsuleCandidateColumns capsule_candidates;
+  CapsuleScratch capsule_scratch;
+  Column<ContactRow> contacts;
+  MeshCandidateColumns mesh_candidates;
+  NearScratch near_scratch;         // empty unless cloth touches cloth
+  Column<FoldChoice> fold_choices;  // empty unless a cloth folds
+  Column<FoldSprings> fold_springs;
+  Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
+  Column<ClearancePlane> clearance_planes;
+  Column<NearTriangle> near_triangles;
+  FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
+  std::uint32_t capsule_pose_count = 0, contact_count = 0, clearance_plane_count = 0;
+
+  Stats stats;
+  std::uint64_t substeps = 0;
+  const std::uint32_t number;  // among the world's
+
+  Worker(std::uint32_t k, std::pmr::memory_resource* m)
+      : packed_particles(m),
+        capsule_poses(m),
+        capsule_candidates(m),
+        capsule_scratch(m),
+        contacts(m),
+        mesh_candidates(m),
+        near_scratch(m),
+        fold_choices(m),
+        fold_springs(m),
+        footprint(m),
+        clearance_planes(m),
+        near_triangles(m),
+        fold_scratch(m),
+        number(k) {}
+};
+
+struct World;
+struct ClothRecord;
+/// For this cloth too, where the scene is as it is now. Throws std::bad_alloc.
+void make_room(Worker& worker, const World& world, const ClothRecord& cloth);
+
+}  // namespace pleat
