@@ -54,7 +54,8 @@ for job in "${jobs[@]}"; do
   read -r name full brief program arguments <<<"$job"
   left=$((left + (quick ? brief : full)))
   ((quick)) && arguments+=" $(quick_options "$program")"
-  commands[$name]="$bin/$program $arguments --json $results/$name.json"
+  read -ra words <<<"$bin/$program $arguments --json $results/$name.json"
+  commands[$name]="${words[*]}"
 done
 
 failed=0
@@ -104,7 +105,8 @@ section() { # name title about [script]
     "$(sed -n "${4-p}" "$results/$1.txt")"
 }
 
-scale=$( ((quick)) && echo ', quick: small grids, few runs' || true)
+scale=''
+((quick)) && scale=', quick: small grids, few runs'
 # shellcheck disable=SC2016 # a $ is sed's
 {
   printf '# pleat, measured\n\n'

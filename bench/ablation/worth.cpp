@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <numeric>
+#include <random>
 
 #include "bench/metrics/surface_distance.h"
 #include "demo/quality/scene_quality.h"
@@ -30,6 +32,8 @@ void host_frame(Scene& scene, std::vector<DrawnSurface>& surfaces) {
   for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
 }
 
+constexpr size_t kSamples = 2000;  // of each surface: a distance to about 2 %
+
 /// A way to run the scene, and what came of it.
 struct Variant {
   SceneDef def;
@@ -39,21 +43,27 @@ struct Variant {
   uint32_t particles = 0;
 };
 
-/// All variants frame by frame in turn, so that a slow moment of the machine meets all alike.
-void time_round(const pleat_api& api, std::vector<Variant>& variants) {
+/// All variants frame by frame in turn, so that a slow moment of the machine meets all alike; in a new order each
+/// time, for who comes after its like finds the processor's caches and predictors warm. Where a scene lies in memory
+/// matters too: so they are also made in an order of the round's own.
+void time_round(const pleat_api& api, uint32_t round, std::vector<Variant>& variants) {
   struct Run {
     std::unique_ptr<Scene> scene;
     std::vector<DrawnSurface> surfaces;
   };
-  std::vector<Run> runs;
-  for (Variant& variant : variants) {
-    auto scene = std::make_unique<Scene>(api, variant.def);
-    std::vector<DrawnSurface> surfaces = make_surfaces(*scene);
-    runs.push_back({std::move(scene), std::move(surfaces)});
-    variant.times.resize(variant.def.frames);
+  std::vector<Run> runs(variants.size());
+  std::vector<size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::mt19937 random(round);
+  std::ranges::shuffle(order, random);
+  for (const size_t k : order) {
+    runs[k].scene = std::make_unique<Scene>(api, variants[k].def);
+    runs[k].surfaces = make_surfaces(*runs[k].scene);
+    variants[k].times.resize(variants[k].def.frames);
   }
   for (size_t frame = 0; frame < variants[0].times.size(); ++frame) {
-    for (size_t k = 0; k < runs.size(); ++k) {
+    std::ranges::shuffle(order, random);
+    for (const size_t k : order) {
       runs[k].scene->pose_next();
       const auto start = std::chrono::steady_clock::now();
       host_frame(*runs[k].scene, runs[k].surfaces);
@@ -100,7 +110,7 @@ double mean_frame(const Variant& variant) {
 }
 
 Worth compare(const Ablation& ablation, const Variant& with, const Variant& without) {
-  const SurfaceDistance distance = surface_distance(with.last, without.last);
+  const SurfaceDistance distance = surface_distance(with.last, without.last, kSamples);
   return {.ablation = ablation,
           .saved_us = mean_frame(with) - mean_frame(without),
           .with = with.flaws,
@@ -123,7 +133,7 @@ SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint
     variants.back().def.settings = ablations.back().put_in ? ablations.back().with : ablations.back().without;
   }
   for (uint32_t round = 0; round < rounds; ++round) {
-    time_round(api, variants);
+    time_round(api, round, variants);
     step();
   }
   for (Variant& variant : variants) {
