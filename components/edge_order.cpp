@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint32_t kFar = 0xffffffffu;
 
-/// Of each particle, edges to the nearest pin; 0 where there is none in its part.
-std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<const std::uint32_t> pins,
+/// Of each particle, edges to the nearest of `from`; 0 where there is none in its part.
+std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<const std::uint32_t> from,
                                       std::span<const EdgeEnds> edges) {
   std::vector<std::uint32_t> begin(std::size_t{particle_count} + 1), across(2 * edges.size());
   for (const EdgeEnds& edge : edges) ++begin[edge[0] + 1], ++begin[edge[1] + 1];
@@ -17,8 +17,8 @@ std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<co
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   for (const auto& [i, j] : edges) across[next[i]++] = j, across[next[j]++] = i;
 
-  std::vector<std::uint32_t> hops(particle_count, kFar), queue(pins.begin(), pins.end());
-  for (const std::uint32_t pin : pins) hops[pin] = 0;
+  std::vector<std::uint32_t> hops(particle_count, kFar), queue(from.begin(), from.end());
+  for (const std::uint32_t i : from) hops[i] = 0;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const std::uint32_t i = queue[head];
     for (std::uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
@@ -32,14 +32,14 @@ std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<co
 
 }  // namespace
 
-void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> pins, std::vector<EdgeEnds>& edges) {
+void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> from, std::vector<EdgeEnds>& edges) {
   struct Place {
     std::uint32_t band;
     int colour;
     EdgeEnds edge;
     auto operator<=>(const Place&) const = default;
   };
-  const std::vector<std::uint32_t> hops = count_hops(particle_count, pins, edges);
+  const std::vector<std::uint32_t> hops = count_hops(particle_count, from, edges);
   std::vector<Place> places;
   for (const EdgeEnds& edge : edges) places.push_back({hops[edge[0]] + hops[edge[1]], 0, edge});
   std::sort(places.begin(), places.end());

@@ -58,6 +58,15 @@ void add_faces(const GarmentInput& input, Garment& g) {
   }
 }
 
+/// The particle nearest to the middle of all.
+std::uint32_t middle_of(std::span<const Vec3> positions) {
+  Vec3 sum;
+  for (const Vec3& x : positions) sum += x;
+  const Vec3 middle = sum * (1.0f / static_cast<float>(positions.size()));
+  const auto nearest = std::ranges::min_element(positions, {}, [&](const Vec3& x) { return length(x - middle); });
+  return static_cast<std::uint32_t>(nearest - positions.begin());
+}
+
 void add_edges(const GarmentInput& input, Garment& g) {
   std::vector<EdgeEnds> edges;
   const auto side = [&](std::uint32_t f, std::uint32_t k) {
@@ -69,7 +78,8 @@ void add_edges(const GarmentInput& input, Garment& g) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  order_edges(g.particle_count, input.pins, edges);
+  const std::uint32_t middle[] = {middle_of(input.positions)};
+  order_edges(g.particle_count, input.pins.empty() ? middle : input.pins, edges);
 
   g.edge_count = static_cast<std::uint32_t>(edges.size());
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);

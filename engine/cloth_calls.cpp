@@ -225,6 +225,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     move_pins_to_particles(world, record);
     record.pin_velocity = {};
     record.declared_jump.reset();
+    record.settling = kSettling;
     record.self_pair_count = kNone;
     forget_layer_pairs(world);
     refresh(world, record);

@@ -52,6 +52,9 @@ enum class Notice : std::uint8_t { kNothing, kDue, kSaid };
 /// Which rows of the schedule a cloth runs: bit i is row i.
 using Plan = std::uint64_t;
 
+/// For how long a start that is stretched is held back at most, s.
+inline constexpr float kSettling = 0.25f;
+
 struct ClothRecord {
   GarmentRecord* source = nullptr;
   pleat_cloth_settings settings{};
@@ -67,7 +70,7 @@ struct ClothRecord {
   bool said_jump = false;                    // that its pins jumped
   Vec3 pin_velocity;                         // m/s, mean of the last tick
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
-  float settling = 0.25f;                    // s, for how much longer a start that is stretched is held back
+  float settling = kSettling;                // s, for how much longer a start that is stretched is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
   std::uint64_t last_tick = 0;               // `ticks` of the world when it last ran
 

@@ -73,7 +73,7 @@ TEST(EdgeOrder, GoesFromThePinsDownWhateverTheNumbers) {
   EXPECT_LE(count_runs(sheet.edges), 8u * 7);  // a particle has at most six edges, four of them in one band
 }
 
-TEST(EdgeOrder, WithoutPinsFewRunsTakeTheWholeSheet) {
+TEST(EdgeOrder, WithNowhereToBeginFewRunsTakeTheWholeSheet) {
   Sheet sheet(16, 16);
   order_edges(256, {}, sheet.edges);
   EXPECT_LE(count_runs(sheet.edges), 11u);
