@@ -44,9 +44,7 @@ TEST(Settling, AStretchedStartIsNotThrown) {
   }
 }
 
-TEST(Settling, AStartThatFitsMovesAtOnce) {
-  EXPECT_NEAR(speeds(1.0f, 0)[0], 9.81f / 60, 0.02f);
-}
+TEST(Settling, AStartThatFitsMovesAtOnce) { EXPECT_NEAR(speeds(1.0f, 0)[0], 9.81f / 60, 0.02f); }
 
 }  // namespace
 }  // namespace pleat
