@@ -7,7 +7,7 @@
 namespace pleat {
 namespace {
 
-constexpr float kAny = 1.0f;  // m/s
+constexpr float kAny = 10.0f;  // m/s: contact that pushes a deep start out, and what the strain limit makes of that
 
 float longest_way(const ConstVec3View& from, const ConstVec3View& to, std::size_t count) {
   float most2 = 0.0f;

@@ -12,9 +12,9 @@ namespace pleat {
 /// over their mass; 0 where all are pinned. Not finite where one of them is not. Cost: O(P).
 float rms_speed(std::size_t count, const float* mass, const float* inverse_mass, const ConstVec3View& velocity);
 
-/// The speed that a cloth may have when a tick ends: twice the sum of what each source alone could give it, plus 1 m/s
+/// The speed that a cloth may have when a tick ends: twice the sum of what each source alone could give it, plus 10 m/s
 /// for what is not listed,
-///   2 (v + |g| dt + wind + fastest pin + fastest body + c + e) + 1 m/s
+///   2 (v + |g| dt + wind + fastest pin + fastest body + c + e) + 10 m/s
 /// v its own when the tick began; c = (by how much the longest edge or tether exceeds its rest length) / substep, which
 /// the strain limit turns into motion; e = sqrt(2 E / mass) of the energy E in springs, k L (l - L)^2 / (2 L) at most,
 /// and in bending through half a turn. An explosion goes past any such bound within a few substeps.
