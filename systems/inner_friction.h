@@ -6,6 +6,7 @@
 #pragma once
 
 #include "components/garment.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -30,7 +31,7 @@ struct InnerFriction {
   Vec3View held, force;
 
   bool validate() const;
-  void run() const;
+  void run(VectorSet set = widest_vectors()) const;
 };
 
 }  // namespace pleat

@@ -170,5 +170,23 @@ TEST(InnerFriction, PropertyFreeClothKeepsItsMomentum) {
   EXPECT_LT(length(sum.force), 1e-6 * sum.size);
 }
 
+TEST(InnerFriction, PropertyEveryVectorSetGivesTheSameBits) {
+  if (widest_vectors() == VectorSet::kBaseline) GTEST_SKIP() << "the processor has no AVX2";
+  for (std::uint32_t n = 2; n < 8; ++n) {
+    std::vector<Vec3> found[2];
+    for (const VectorSet set : {VectorSet::kBaseline, VectorSet::kAvx2}) {
+      Sheet sheet(make_grid({.rows = n, .columns = n}));
+      shake(sheet.velocity, sheet.count, 0.01f, n);
+      const InnerFriction friction = job(sheet, 0.1f);
+      for (int step = 0; step < 5; ++step) friction.run(set);
+      for (std::uint32_t i = 0; i < sheet.count; ++i) {
+        found[set == VectorSet::kAvx2].push_back(sheet.force[i]);
+        found[set == VectorSet::kAvx2].push_back(friction.held[i]);
+      }
+    }
+    EXPECT_EQ(found[0], found[1]) << n;
+  }
+}
+
 }  // namespace
 }  // namespace pleat
