@@ -7,14 +7,14 @@
 #include <map>
 
 #include "bench/counting_new.h"
+#include "bench/host_frame.h"
 #include "demo/program/progress.h"
 #include "demo/quality/scene_quality.h"
-#include "demo/scenes/drawn_surface.h"
-#include "demo/scenes/scene.h"
 
 namespace pleat::bench {
 namespace {
 
+using bench::host_frame;  // and one of a peer below
 using demo::DrawnSurface;
 using demo::Progress;
 using demo::Scene;
@@ -26,19 +26,7 @@ using NamedSpread = std::pair<std::string, Spread>;
 
 constexpr uint32_t kWarmUp = 10;  // frames that may still allocate
 
-std::vector<DrawnSurface> make_surfaces(const Scene& scene) {
-  std::vector<DrawnSurface> surfaces;
-  for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
-  return surfaces;
-}
-
-/// What a host does in a frame: write pins and colliders, step, read what is drawn into its own buffer.
-void host_frame(Scene& scene, std::vector<DrawnSurface>& surfaces) {
-  scene.step();
-  for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
-}
-
-/// The same with a peer, which draws its bare particles.
+/// What a host does in a frame with a peer, which draws its bare particles.
 void host_frame(BulletScene& scene, std::vector<float>& particles) {
   scene.step();
   for (size_t k = 0; k < scene.copies(); ++k) scene.read_particles(k, particles);

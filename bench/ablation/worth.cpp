@@ -6,12 +6,11 @@
 #include <numeric>
 #include <random>
 
+#include "bench/host_frame.h"
 #include "bench/metrics/surface_distance.h"
 #include "demo/quality/scene_quality.h"
 #include "demo/quality/scene_surface.h"
 #include "demo/quality/surface_motion.h"
-#include "demo/scenes/drawn_surface.h"
-#include "demo/scenes/scene.h"
 
 namespace pleat::bench {
 namespace {
@@ -19,18 +18,6 @@ namespace {
 using demo::DrawnSurface;
 using demo::Scene;
 using demo::SceneDef;
-
-std::vector<DrawnSurface> make_surfaces(const Scene& scene) {
-  std::vector<DrawnSurface> surfaces;
-  for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
-  return surfaces;
-}
-
-/// What a host does in a frame.
-void host_frame(Scene& scene, std::vector<DrawnSurface>& surfaces) {
-  scene.step();
-  for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
-}
 
 constexpr size_t kSamples = 2000;  // of each surface: a distance to about 2 %
 
