@@ -192,7 +192,7 @@ TEST_F(Collider, AnyOrderOfCallsKeepsHandlesAndTheClothInOrder) {
         alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(k));
         break;
       case 1:
-        ASSERT_EQ(api().collider_set_enabled(world, id, step % 2), pleat_result{PLEAT_OK});
+        ASSERT_EQ(api().collider_set_enabled(world, id, step % 2 == 1), pleat_result{PLEAT_OK});
         break;
       case 2:
         api().collider_move_rigid(world, id, at, turn);

@@ -19,7 +19,7 @@ TEST(Api, IsCompleteAndSpeaksItsMajorOnly) {
   EXPECT_EQ(table.size, sizeof(pleat_api));
   EXPECT_EQ(table.major, PLEAT_API_MAJOR);
   EXPECT_STREQ(table.version, PLEAT_VERSION_STRING);
-  EXPECT_EQ(table.features & ~(PLEAT_FEATURE_COLLISION | PLEAT_FEATURE_SMOOTHING), 0u);
+  EXPECT_EQ(table.features & ~std::uint32_t{PLEAT_FEATURE_COLLISION | PLEAT_FEATURE_SMOOTHING}, 0u);
   const auto* entry = reinterpret_cast<void* const*>(&table.world_def_init);
   const auto* end = reinterpret_cast<void* const*>(&table + 1);
   for (; entry != end; ++entry) EXPECT_NE(*entry, nullptr);
