@@ -62,6 +62,7 @@ pleat_result cloth_read_vertices(const pleat_world*, pleat_cloth, const pleat_ve
 pleat_result cloth_read_indices(const pleat_world*, pleat_cloth, uint32_t*, uint32_t);
 pleat_result cloth_read_indices_16(const pleat_world*, pleat_cloth, uint16_t*, uint32_t);
 pleat_result cloth_suggest_level(const pleat_world*, pleat_cloth, float, uint32_t*);
+pleat_result cloth_bounds(const pleat_world*, pleat_cloth, float[3], float[3]);
 
 // fabric_calls.cpp
 pleat_result fabric_apply(uint32_t, pleat_cloth_settings*);

@@ -1,7 +1,9 @@
 // What a host reads of the drawn surface: vertices, indices, and which level would do.
+#include "components/packed.h"
 #include "components/suggested_level.h"
 #include "engine/border.h"
 #include "engine/calls.h"
+#include "systems/box.h"
 
 namespace pleat::call {
 namespace {
@@ -22,26 +24,30 @@ class DrawnVertices {
   DrawnVertices(const World& world, const ClothRecord& cloth)
       : garment_(cloth.garment()),
         pattern_(cloth.pattern()),
-        drawn_(world.drawn),
-        begin_(cloth.drawn_begin),
-        particles_(world.particles.position.view().from(cloth.particle_begin)) {}
-
-  std::uint32_t count() const { return pattern_ != nullptr ? pattern_->shaded_count() : garment_.particle_count; }
-
-  Vec3 position(std::uint32_t i) const {
-    return pattern_ != nullptr ? drawn_.position.view()[begin_ + pattern_->place(i)] : particles_[i];
+        particles_(world.particles.position.view().from(cloth.particle_begin)),
+        places_(pattern_ != nullptr ? pattern_->vertex_count : garment_.particle_count),
+        count_(pattern_ != nullptr ? pattern_->shaded_count() : places_),
+        position_(particles_) {
+    if (pattern_ == nullptr) return;
+    twins_ = pattern_->twins.data();
+    position_ = world.drawn.position.view().from(cloth.drawn_begin);
+    normal_ = world.drawn.normal.view().from(cloth.drawn_begin);
+    if (cloth.settings.tangents == 0) return;
+    tangent_ = world.drawn.tangent.view().from(cloth.drawn_begin);
+    handedness_ = world.drawn.handedness.data() + cloth.drawn_begin;
   }
-  Vec3 normal(std::uint32_t i) const {
-    return pattern_ != nullptr ? drawn_.normal.view()[begin_ + i] : coarse_normal(i);
-  }
+
+  std::uint32_t count() const { return count_; }
+  Box bounds() const { return box_of(position_, places_); }
+  Vec3 position(std::uint32_t i) const { return position_[place(i)]; }
+  Vec3 normal(std::uint32_t i) const { return pattern_ != nullptr ? normal_[i] : coarse_normal(i); }
   std::array<float, 4> tangent(std::uint32_t i) const {
-    const Vec3 t = drawn_.tangent.view()[begin_ + i];
-    return {t.x, t.y, t.z, drawn_.handedness[begin_ + i]};
+    return {tangent_.x[i], tangent_.y[i], tangent_.z[i], handedness_[i]};
   }
 
   std::array<float, 2> uv(std::uint32_t i) const {
     if (pattern_ == nullptr) return coarse_uv(i);
-    const std::uint32_t v = pattern_->place(i);
+    const std::uint32_t v = place(i);
     if (v < garment_.particle_count) return coarse_uv(v);
     std::array<float, 2> uv{};
     const auto blend = [&](std::uint32_t particle, float weight) {
@@ -63,6 +69,7 @@ class DrawnVertices {
   }
 
  private:
+  std::uint32_t place(std::uint32_t i) const { return i < places_ ? i : twins_[i - places_]; }
   std::array<float, 2> coarse_uv(std::uint32_t i) const {
     return garment_.uv.size() != 0 ? std::array{garment_.uv[2 * i], garment_.uv[2 * i + 1]} : std::array{0.0f, 0.0f};
   }
@@ -79,9 +86,11 @@ class DrawnVertices {
 
   const Garment& garment_;
   const TessellationPattern* pattern_;
-  const DrawnColumns& drawn_;
-  std::uint32_t begin_;
   ConstVec3View particles_;
+  std::uint32_t places_, count_;  // without and with twins
+  const std::uint32_t* twins_ = nullptr;
+  ConstVec3View position_, normal_, tangent_;
+  const float* handedness_ = nullptr;
 };
 
 template <class Index>
@@ -114,33 +123,75 @@ pleat_result cloth_read_vertices(const pleat_world* handle, pleat_cloth cloth, c
     need_pointer("target.data", target.data);
     const DrawnVertices drawn(world, record);
     need_capacity("target.capacity", target.capacity, drawn.count());
-    const auto fits = [&](const char* name, std::uint32_t offset, std::uint32_t bytes) {
+    need_range("target.position_format", target.position_format, 0, PLEAT_FORMAT_16);
+    need_range("target.normal_format", target.normal_format, 0, PLEAT_FORMAT_16);
+    const auto fits = [&](const char* name, std::uint32_t offset, std::size_t bytes) {
       if (offset != PLEAT_NO_ATTRIBUTE && std::uint64_t{offset} + bytes > target.stride) {
         refuse(std::string("target.") + name + " is " + std::to_string(offset) + ", beyond a stride of " +
                std::to_string(target.stride));
       }
       return offset != PLEAT_NO_ATTRIBUTE;
     };
-    const bool with_position = fits("position_offset", target.position_offset, 12);
-    const bool with_normal = fits("normal_offset", target.normal_offset, 12);
-    const bool with_uv = fits("uv_offset", target.uv_offset, 8);
-    const bool with_tangent = fits("tangent_offset", target.tangent_offset, 16);
+    const auto size_of = [](std::uint32_t format) {
+      return format == PLEAT_FORMAT_16 ? sizeof(std::uint16_t) : sizeof(float);
+    };
+    const bool with_position = fits("position_offset", target.position_offset, 3 * size_of(target.position_format));
+    const bool with_normal = fits("normal_offset", target.normal_offset, 3 * size_of(target.normal_format));
+    const bool with_uv = fits("uv_offset", target.uv_offset, 2 * sizeof(float));
+    const bool with_tangent = fits("tangent_offset", target.tangent_offset, 4 * size_of(target.normal_format));
     if (with_tangent) {
       need_compiled(kHasSmoothing, "target.tangent_offset: the tangent", "PLEAT_SMOOTHING");
       if (record.settings.tangents == 0)
         refuse("target.tangent_offset is given, but the cloth's setting tangents is 0");
     }
 
+    const bool packs_position = with_position && target.position_format == PLEAT_FORMAT_16;
+    const bool packs_normal = target.normal_format == PLEAT_FORMAT_16;
+    const Box bounds = packs_position ? drawn.bounds() : Box{};
+    const UnormBox box(bounds.low, bounds.high);
     char* out = static_cast<char*>(target.data);
-    const auto write = [&](std::uint32_t offset, const auto& value) {
-      std::memcpy(out + offset, &value, sizeof value);
+    const auto write = [&](std::uint32_t offset, const auto&... values) {  // one by one: no detour through memory
+      char* to = out + offset;
+      ((std::memcpy(to, &values, sizeof values), to += sizeof values), ...);
+    };
+    const auto write_direction = [&](std::uint32_t offset, auto... values) {
+      packs_normal ? write(offset, snorm16(values)...) : write(offset, values...);
     };
     for (std::uint32_t i = 0; i < drawn.count(); ++i, out += target.stride) {
-      if (with_position) write(target.position_offset, drawn.position(i));
-      if (with_normal) write(target.normal_offset, drawn.normal(i));
-      if (with_uv) write(target.uv_offset, drawn.uv(i));
-      if (with_tangent) write(target.tangent_offset, drawn.tangent(i));
+      if (with_position) {
+        const Vec3 p = drawn.position(i);
+        if (packs_position) {
+          const auto [x, y, z] = box.pack(p);
+          write(target.position_offset, x, y, z);
+        } else {
+          write(target.position_offset, p.x, p.y, p.z);
+        }
+      }
+      if (with_normal) {
+        const Vec3 n = drawn.normal(i);
+        write_direction(target.normal_offset, n.x, n.y, n.z);
+      }
+      if (with_uv) {
+        const auto [u, v] = drawn.uv(i);
+        write(target.uv_offset, u, v);
+      }
+      if (with_tangent) {
+        const auto [x, y, z, handedness] = drawn.tangent(i);
+        write_direction(target.tangent_offset, x, y, z, handedness);
+      }
     }
+  });
+}
+
+pleat_result cloth_bounds(const pleat_world* handle, pleat_cloth cloth, float low[3], float high[3]) {
+  return guarded(as_world(handle), "cloth_bounds", [&] {
+    const World& world = need_world(handle);
+    const DrawnVertices drawn(world, need_cloth(world, cloth));
+    need_pointer("low", low);
+    need_pointer("high", high);
+    const Box box = drawn.bounds();
+    std::memcpy(low, &box.low, sizeof box.low);
+    std::memcpy(high, &box.high, sizeof box.high);
   });
 }
 

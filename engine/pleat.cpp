@@ -56,6 +56,7 @@ constexpr pleat_api kApi = {
     .cloth_suggest_level = call::cloth_suggest_level,
     .cloth_contact_report = call::cloth_contact_report,
     .cloth_teleport = call::cloth_teleport,
+    .cloth_bounds = call::cloth_bounds,
 };
 
 }  // namespace

@@ -280,18 +280,27 @@ typedef struct pleat_cloth_info {
 } pleat_cloth_info;
 
 #define PLEAT_NO_ATTRIBUTE 0xffffffffu
-/* Where and how drawn vertices are written: an engine's interleaved vertex buffer can be the target. */
+/* How an attribute's numbers are written. */
+enum {
+  PLEAT_FORMAT_FLOAT = 0, /* default: 32-bit floats */
+  PLEAT_FORMAT_16 = 1 /* positions: uint16 u from corner to corner of cloth_bounds, low + u / 65535 (high - low), off by
+                         half a step at most; normals, tangents: int16 s, for s / 32767. As GPUs read UNORM, SNORM */
+};
+/* Where and how drawn vertices are written: an engine's interleaved vertex buffer can be the target. It is written
+ * once, vertex by vertex, and not read. */
 typedef struct pleat_vertex_target {
   uint32_t size;
   void* data;
   uint32_t stride;          /* bytes from one vertex to the next */
   uint32_t capacity;        /* vertices */
-  uint32_t position_offset; /* bytes to float[3]; PLEAT_NO_ATTRIBUTE, the default of all four, leaves one out */
-  uint32_t normal_offset;   /* bytes to float[3], unit length */
+  uint32_t position_offset; /* bytes to [3]; PLEAT_NO_ATTRIBUTE, the default of all four, leaves one out */
+  uint32_t normal_offset;   /* bytes to [3], unit length */
   uint32_t uv_offset;       /* bytes to float[2]; zeros when the garment has none */
-  /* Bytes to float[4]: unit and across the normal, where u grows; then 1 or -1, times cross(normal, tangent) is where v
+  /* Bytes to [4]: unit and across the normal, where u grows; then 1 or -1, times cross(normal, tangent) is where v
    * grows. Without uvs it is the direction nearest to the x axis. Only for cloths with settings.tangents = 1. */
   uint32_t tangent_offset;
+  uint32_t position_format; /* PLEAT_FORMAT_* */
+  uint32_t normal_format;   /* of tangents too */
 } pleat_vertex_target;
 
 /* ---- colliders ------------------------------------------------------------------------------------------------- */
@@ -483,6 +492,8 @@ typedef struct pleat_api {
    * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. */
   pleat_result (*cloth_teleport)(pleat_world* world, pleat_cloth cloth, const float from[3], const float to[3],
                                  const float rotation[4]);
+  /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. */
+  pleat_result (*cloth_bounds)(const pleat_world* world, pleat_cloth cloth, float low[3], float high[3]);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

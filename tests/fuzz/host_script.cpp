@@ -308,6 +308,13 @@ class Host {
       target.data = drawn.data(), target.stride = 24, target.capacity = info.drawn_vertices;
       target.position_offset = 0, target.normal_offset = 12;
       note(api_.cloth_read_vertices(world_, cloth, &target));
+      std::vector<float> corners(6);
+      note(api_.cloth_bounds(world_, cloth, corners.data(), corners.data() + 3));
+      std::vector<std::uint16_t> packed(6 * info.drawn_vertices);
+      target.data = packed.data(), target.stride = 12, target.normal_offset = 6;
+      target.position_format = target.normal_format = PLEAT_FORMAT_16;
+      note(api_.cloth_read_vertices(world_, cloth, &target));
+      need_finite("a corner of the bounds", corners);
       need_finite("a position", x), need_finite("a velocity", v), need_finite("the drawn surface", drawn);
     }
   }
