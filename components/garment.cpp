@@ -6,6 +6,7 @@
 
 #include "components/creases.h"
 #include "components/edge_order.h"
+#include "components/hinge_stiffness.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
 
@@ -112,7 +113,6 @@ void add_hinges(Garment& g) {
   g.hinge_count = g.edge_count - g.border_edge_count;
   for (auto& column : g.hinge_particle) column.resize(g.hinge_count);
   g.hinge_rest_angle.resize(g.hinge_count);
-  g.hinge_shape.resize(g.hinge_count);
 
   const ConstVec3View x = std::as_const(g.rest_position).view();
   std::uint32_t h = 0;
@@ -132,7 +132,6 @@ void add_hinges(Garment& g) {
     const Vec3 edge = x[p[1]] - x[p[0]];
     const Vec3 na = cross(edge, x[p[2]] - x[p[0]]), nb = cross(x[p[3]] - x[p[0]], edge);
     g.hinge_rest_angle[h] = std::atan2(dot(cross(na, nb), normalized_or(edge, {})), dot(na, nb));
-    g.hinge_shape[h] = dot(edge, edge) / (g.face_rest_area[fa] + g.face_rest_area[fb]);
     ++h;
   }
 }
@@ -161,6 +160,10 @@ Garment::Garment(std::pmr::memory_resource* m)
                      Column<std::uint32_t>(m)},
       hinge_rest_angle(m),
       hinge_shape(m),
+      hinge_coupling{Column<float>(m), Column<float>(m), Column<float>(m), Column<float>(m)},
+      hinge_beside{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m),
+                   Column<std::uint32_t>(m)},
+      hinge_bound(m),
       edge_is_crease(m),
       face_normal{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_normal{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
@@ -175,6 +178,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   add_faces(input, garment);
   add_edges(input, garment);
   add_hinges(garment);
+  measure_hinges(garment);
   measure_tethers(garment);
   find_creases(input.seams, input.crease_angle, garment);
   measure_rest_curves(garment);

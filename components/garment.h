@@ -51,7 +51,12 @@ struct Garment {
   // 2 is the tip of face A and 3 that of face B.
   Column<std::uint32_t> hinge_particle[4];
   Column<float> hinge_rest_angle;  // rad
-  Column<float> hinge_shape;       // |e|^2 / (A1 + A2): times B it is the hinge's stiffness, N m
+  // Times B, for the turns theta from rest: energy = sum over h of theta_h (shape_h theta_h + sum over k of coupling_kh
+  // theta_beside_kh) / 2, N m; see hinge_stiffness.h. Beside are the other hinges of face A, then those of face B; the
+  // hinge itself, with coupling 0, where there is none.
+  Column<float> hinge_shape, hinge_coupling[4];
+  Column<std::uint32_t> hinge_beside[4];
+  Column<float> hinge_bound;  // shape + sum of |coupling|
 
   // Normals (N): first one for each particle, over all faces around it; then, where creases part these, one for each
   // part; then one for each end of a crease that lies between two parts, the sum of these, so that both sides of the

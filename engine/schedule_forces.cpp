@@ -72,6 +72,7 @@ constexpr Row kRows[] = {
                         .stiffness = t.settings.bend_stiffness,
                         .damping_rate = t.settings.bend_damping,
                         .dt = t.dt,
+                        .scratch = &t.worker.hinge_scratch,
                         .force = t.force});
      }},
     {Phase::kStage, "edge_damping",

@@ -5,6 +5,7 @@
 #include "components/clearance_plane.h"
 #include "components/contacts.h"
 #include "components/fold_choice.h"
+#include "components/hinge_scratch.h"
 #include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
 #include "components/particles.h"
@@ -17,6 +18,7 @@ namespace pleat {
 /// cloths have counted since the tick began.
 struct Worker {
   Column<PackedParticle> packed_particles;
+  HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
   CapsuleCandidateColumns capsule_candidates;
   CapsuleScratch capsule_scratch;
@@ -37,6 +39,7 @@ struct Worker {
 
   Worker(std::uint32_t k, std::pmr::memory_resource* m)
       : packed_particles(m),
+        hinge_scratch(m),
         capsule_poses(m),
         capsule_candidates(m),
         capsule_scratch(m),

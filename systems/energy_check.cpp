@@ -62,7 +62,7 @@ float SpeedBound::run() const {
   }
   constexpr float kHalfTurn = std::numbers::pi_v<float>;
   for (std::size_t h = 0; h < garment->hinge_count; ++h) {
-    energy += 0.5f * bend_stiffness * garment->hinge_shape[h] * kHalfTurn * kHalfTurn;
+    energy += 0.5f * bend_stiffness * garment->hinge_bound[h] * kHalfTurn * kHalfTurn;
   }
   for (std::size_t i = 0; i < garment->particle_count; ++i) moving += inverse_mass[i] > 0.0f ? mass[i] : 0.0f;
   const float released = moving > 0.0f ? std::sqrt(2.0f * energy / moving) : 0.0f;

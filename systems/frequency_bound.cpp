@@ -23,6 +23,8 @@ std::array<float, 4> gradient(const Garment& g, std::uint32_t h) {
           length(a * dot(at(2) - at(0), u) + b * dot(at(3) - at(0), u)), l * length(a), l * length(b)};
 }
 
+float sum(const std::array<float, 4>& size) { return size[0] + size[1] + size[2] + size[3]; }
+
 }  // namespace
 
 bool FrequencyBound::validate() const { return garment != nullptr && inverse_mass != nullptr; }
@@ -30,20 +32,23 @@ bool FrequencyBound::validate() const { return garment != nullptr && inverse_mas
 FrequencyRates FrequencyBound::run() const {
   const Garment& g = *garment;
   std::vector<float> damping(g.particle_count), bend(g.particle_count), bend_damping(g.particle_count);
+  std::vector<float> sums(g.hinge_count);
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
     const float weight = inverse_mass[i] + inverse_mass[j];
     if (weight > 0.0f) damping[i] += 1.0f / weight, damping[j] += 1.0f / weight;
   }
+  for (std::uint32_t h = 0; h < g.hinge_count; ++h) sums[h] = sum(gradient(g, h));
   for (std::uint32_t h = 0; h < g.hinge_count; ++h) {
     const std::array<float, 4> size = gradient(g, h);
-    const float sum = size[0] + size[1] + size[2] + size[3];
+    float moved = g.hinge_shape[h] * sums[h];
+    for (std::size_t k = 0; k < 4; ++k) moved += std::abs(g.hinge_coupling[k][h]) * sums[g.hinge_beside[k][h]];
     float yielding = 0.0f;
     for (std::size_t k = 0; k < 4; ++k) yielding += inverse_mass[g.hinge_particle[k][h]] * size[k] * size[k];
     if (yielding == 0.0f) continue;
     for (std::size_t k = 0; k < 4; ++k) {
-      bend[g.hinge_particle[k][h]] += g.hinge_shape[h] * size[k] * sum;
-      bend_damping[g.hinge_particle[k][h]] += size[k] * sum / yielding;
+      bend[g.hinge_particle[k][h]] += size[k] * moved;
+      bend_damping[g.hinge_particle[k][h]] += size[k] * sums[h] / yielding;
     }
   }
   FrequencyRates rates;

@@ -12,10 +12,11 @@ namespace pleat {
 
 /// Bounds the frequencies of a cloth of these masses:
 ///   springs   omega^2 <= max_i 2 w_i (edges at i) k, in any shape: an edge's stiffness is k along it, less across
-///   hinges    omega^2 <= max_i w_i sum_h c_h |g_hi| sum_j |g_hj|, in the rest shape; HingeBending bounds folded ones
-///   damping   the same sums with 1 / (w_i + w_j) for k, and 1 / sum_j w_j |g_hj|^2 for c_h
+///   hinges    omega^2 <= max_i w_i sum_h |g_hi| sum_k |c_hk| sum_j |g_kj|, in the rest shape; HingeBending bounds
+///             folded ones
+///   damping   the same sums with 1 / (w_i + w_j) for k, and 1 / sum_j w_j |g_hj|^2 for c_hh
 /// Reads:  garment edges, hinges, rest shape; inverse_mass (P) 1/kg
-/// Cost:   O(E + H); allocates 3 floats a particle for its time. Errors: std::bad_alloc.
+/// Cost:   O(E + H); allocates 3 floats a particle, one a hinge for its time. Errors: std::bad_alloc.
 struct FrequencyBound {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;

@@ -4,17 +4,18 @@
 #pragma once
 
 #include "components/garment.h"
+#include "components/hinge_scratch.h"
 #include "components/wide.h"
 
 namespace pleat {
 
-/// Adds the force of E = 1/2 c (theta - theta0)^2, c = B |e|^2 / (A1 + A2), and of damping, for every hinge:
-///   F = -(c (theta - theta0) + d theta') grad(theta),   d = rate / W,   W = sum of w_k |g_k|^2
-/// With this c a bent sheet of equilateral triangles has the plate's energy B kappa^2 / 2 per area in every direction.
-/// c is held below 0.2 / (W dt^2) and the rate below 0.2 / dt, where explicit steps stay stable. Momentum is kept.
-/// Reads:  garment hinges; position (P) m; velocity (P) m/s; inverse_mass (P) 1/kg
-/// Writes: force (P) N, added to
-/// Cost:   O(H), no allocation. Errors: none; a hinge at a face of less than 1e-12 m2 is passed over.
+/// Adds the force of bending and of its damping for every hinge h,
+///   F = -(s_h B sum over k of c_hk s_k (theta_k - theta0_k) + d_h theta_h') grad(theta_h),   d_h = rate / W_h
+/// W_h = sum of w_i |g_hi|^2, c the garment's shapes and couplings (components/hinge_stiffness.h): minus the gradient
+/// of its energy. s_h^2 <= 0.2 / (W_h dt^2 B sum of |c_hk|) and rate <= 0.2 / dt hold both to what explicit steps
+/// carry. Momentum is kept. Reads:  garment hinges; position (P) m; velocity (P) m/s; inverse_mass (P) 1/kg Writes:
+/// force (P) N, added to; scratch Cost:   O(H), no allocation. Errors: none; a hinge at a face of less than 1e-12 m2 is
+/// passed over.
 struct HingeBending {
   const Garment* garment = nullptr;
   ConstVec3View position, velocity;
@@ -22,6 +23,7 @@ struct HingeBending {
   float stiffness = 0.0f;     // B, N m
   float damping_rate = 0.0f;  // 1/s
   float dt = 0.0f;            // s
+  HingeScratch* scratch = nullptr;
   Vec3View force;
 
   bool validate() const;

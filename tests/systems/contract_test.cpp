@@ -69,7 +69,10 @@ const Case kCases[] = {
      [](Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, {30.0f}, 1e6f, s.force}.run(); },
      {"force"}},
     {"HingeBending",
-     [](Sheet& s) { HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, s.force}.run(); },
+     [](Sheet& s) {
+       HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, &s.hinge_scratch, s.force}
+           .run();
+     },
      {"force"}},
     {"EdgeDamping",
      [](Sheet& s) { EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, kDt, s.force}.run(); },

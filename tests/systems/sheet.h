@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/garment.h"
+#include "components/hinge_scratch.h"
 #include "components/particles.h"
 #include "components/shapes.h"
 
@@ -21,6 +22,7 @@ struct Sheet {
   Garment garment;
   ParticleColumns particles;
   std::vector<PackedParticle> packed;
+  HingeScratch hinge_scratch;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;
   float* inverse_mass;
@@ -30,11 +32,13 @@ struct Sheet {
       : garment(build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource())),
         particles(std::pmr::new_delete_resource()),
         packed(garment.particle_count),
+        hinge_scratch(std::pmr::new_delete_resource()),
         count(garment.particle_count) {
     for (Vec3Column* column :
          {&particles.position, &particles.velocity, &particles.force, &particles.previous, &particles.predicted}) {
       column->resize(count);
     }
+    hinge_scratch.make_room(garment.hinge_count);
     particles.inverse_mass.resize(count);
     particles.mass.resize(count);
     position = particles.position.view(), velocity = particles.velocity.view(), force = particles.force.view();

@@ -1,0 +1,28 @@
+// Scratch of hinge bending: what the pass over the angles leaves to the pass over the forces.
+#pragma once
+
+#include "components/column.h"
+#include "components/vec3_block.h"
+
+namespace pleat {
+
+/// Some hinges side by side, between the two passes over all of them.
+struct HingeBlock {
+  Vec3Block gradient[4];                    // of the angle for each of its particles, 1/m; 0: the hinge is passed over
+  float damping[kLanes], softness[kLanes];  // N m; s_h
+};
+
+/// For as many hinges as one cloth has.
+struct HingeScratch {
+  Column<HingeBlock> blocks;
+  Column<float> turn;  // s_h (theta - theta0), rad
+
+  explicit HingeScratch(std::pmr::memory_resource* m) : blocks(m), turn(m) {}
+  void make_room(std::uint32_t hinges) {
+    const std::size_t count = (std::size_t{hinges} + kLanes - 1) / kLanes;
+    if (blocks.size() < count) blocks.resize(count);
+    if (turn.size() < count * kLanes) turn.resize(count * kLanes);
+  }
+};
+
+}  // namespace pleat
