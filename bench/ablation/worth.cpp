@@ -65,7 +65,7 @@ std::optional<double> deepest(const demo::Quality& quality) {
   return std::max({quality.penetration_particle_mm, quality.penetration_interior_mm, quality.penetration_drawn_mm});
 }
 
-void judge(const pleat_api& api, Variant& variant) {
+void judge(const pleat_api& api, bool rest, Variant& variant) {
   Scene scene(api, variant.def);
   std::vector<DrawnSurface> surfaces = make_surfaces(scene);
   demo::SceneQuality meter(scene);
@@ -80,7 +80,7 @@ void judge(const pleat_api& api, Variant& variant) {
   }
   variant.particles = scene.cloth_info(0).particles;
   variant.last = {surfaces[0].positions(), {}, surfaces[0].indices};
-  meter.measure_rest(scene);
+  if (rest) meter.measure_rest(scene);
   const demo::Quality quality = meter.result();
   variant.flaws = {.stretch_percent = quality.strain_max_percent,
                    .inside_mm = deepest(quality),
@@ -110,7 +110,7 @@ Worth compare(const Ablation& ablation, const Variant& with, const Variant& with
 
 uint32_t worth_steps(uint32_t rounds) { return rounds + uint32_t(parts().size() + 1); }
 
-SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint32_t rounds,
+SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint32_t rounds, bool rest,
                          const std::function<void()>& step) {
   std::vector<Ablation> ablations;
   std::vector<Variant> variants = {{scene}};  // as it is, then the other side of each ablation
@@ -124,7 +124,7 @@ SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint
     step();
   }
   for (Variant& variant : variants) {
-    judge(api, variant);
+    judge(api, rest, variant);
     step();
   }
   const Variant& as_is = variants[0];

@@ -16,7 +16,7 @@ struct Flaws {
   std::optional<double> inside_mm;  ///< the deepest point of particles, triangles or drawn triangles in a body
   double length_percent;            ///< coarse edges as drawn against the same at rest, RMS over edges and frames
   std::optional<double> crossings;  ///< coarse edges through triangles of the cloth itself, a frame
-  std::optional<double> jitter_mm;  ///< as frame_budget's rest_jitter_mm
+  std::optional<double> jitter_mm;  ///< as frame_budget's rest_jitter_mm, where what follows the scene is watched
 };
 
 /// What a part is worth to a scene.
@@ -41,8 +41,9 @@ struct SceneWorth {
 uint32_t worth_steps(uint32_t rounds);
 
 /// Runs the scene as it is and each variant, frame by frame in turn, `rounds` times. A frame's time is the least of the
-/// rounds; a scene's is the mean over its frames, for some parts only some frames need. Throws as Scene.
-SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint32_t rounds,
+/// rounds; a scene's is the mean over its frames, for some parts only some frames need. With `rest`, what the cloth
+/// does in the six seconds after the scene is watched too. Throws as Scene.
+SceneWorth measure_worth(const pleat_api& api, const demo::SceneDef& scene, uint32_t rounds, bool rest,
                          const std::function<void()>& step);
 
 void print_worth(const SceneWorth& worth);

@@ -37,6 +37,7 @@ void Contestant::draw_as(const Drawing& drawing) {
   ours_->check(ours_->api().cloth_get(ours_->world(), cloth, &settings), "settings");
   settings.surface = drawing.surface;
   settings.level = drawing.level;
+  settings.fold_sweeps = drawing.fold_sweeps;
   ours_->check(ours_->api().cloth_set(ours_->world(), cloth, &settings), "surface");
   drawn_ = demo::make_surface(*ours_, 0);
 }

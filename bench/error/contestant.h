@@ -28,6 +28,7 @@ struct Dynamics {
 struct Drawing {
   std::string method;       ///< what a curve of the chart is drawn through
   uint32_t surface, level;  ///< PLEAT_SURFACE_*; a peer draws its bare particles
+  uint32_t fold_sweeps = 0;
 };
 
 /// A rest scene that is simulated in one way.

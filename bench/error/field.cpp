@@ -9,7 +9,11 @@ namespace {
 const std::vector<Drawing> kSurfaces = {{"flat", PLEAT_SURFACE_FLAT, 1},
                                         {"pn", PLEAT_SURFACE_PN, PLEAT_LEVEL_FAN},
                                         {"paper", PLEAT_SURFACE_PAPER, PLEAT_LEVEL_FAN},
-                                        {"pleat", PLEAT_SURFACE_PLEAT, PLEAT_LEVEL_FAN}};
+                                        {"pleat", PLEAT_SURFACE_PLEAT, PLEAT_LEVEL_FAN},
+                                        {"phong", PLEAT_SURFACE_PHONG, PLEAT_LEVEL_FAN},
+                                        {"spherigon", PLEAT_SURFACE_SPHERIGON, PLEAT_LEVEL_FAN},
+                                        {"arc-pn", PLEAT_SURFACE_ARC_PN, PLEAT_LEVEL_FAN},
+                                        {"pleat, folds relaxed", PLEAT_SURFACE_PLEAT, PLEAT_LEVEL_FAN, 8}};
 const Drawing kFlat = kSurfaces[0], kFlatSprings = {"flat, explicit springs", PLEAT_SURFACE_FLAT, 1};
 
 Drawing pleat_as(const std::string& method, uint32_t level = PLEAT_LEVEL_FAN) {

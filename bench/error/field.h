@@ -10,7 +10,7 @@ namespace pleat::bench {
 Dynamics explicit_springs(const pleat_api& api, const RestScene& scene, Grid grid,
                           const pleat_cloth_settings& settings);
 
-/// Who competes in a scene: our surfaces over the dynamics of `settings`, the other integrators, stiff springs in place
+/// Who competes in a scene: all surfaces over the dynamics of `settings`, the other integrators, stiff springs in place
 /// of the strain limit, the same drawn flat on finer and finer grids, and Bullet's soft body at each of the settings
 /// that are searched. `quick`: a few of each.
 struct Contestants {

@@ -49,14 +49,19 @@ double depth_through(const Vector3d& p, const Vector3d& q, const Vector3d& a, co
 
 Crossings find_crossings(std::span<const float> positions, std::span<const uint32_t> triangles) {
   std::vector<Face> faces;
-  double widest = 0.0;
+  AlignedBox3d whole;
   for (size_t t = 0; t < triangles.size(); t += 3) {
     Face face{{}, &triangles[t]};
     for (size_t k = 0; k < 3; ++k) face.box.extend(point(positions, face.corner[k]));
-    widest = std::max(widest, face.box.sizes().x());
+    whole.extend(face.box);
     faces.push_back(face);
   }
-  const auto low = [](const Face& face) { return face.box.min().x(); };
+  // Swept along the axis that the mesh is longest in, where the fewest faces are side by side.
+  Eigen::Index axis = 0;
+  if (!faces.empty()) whole.sizes().maxCoeff(&axis);
+  double widest = 0.0;
+  for (const Face& face : faces) widest = std::max(widest, face.box.sizes()[axis]);
+  const auto low = [axis](const Face& face) { return face.box.min()[axis]; };
   std::ranges::sort(faces, {}, low);
 
   Crossings found;
@@ -64,8 +69,8 @@ Crossings find_crossings(std::span<const float> positions, std::span<const uint3
     const Vector3d p = point(positions, i), q = point(positions, j);
     AlignedBox3d box(p);
     box.extend(q);
-    const auto first = std::ranges::lower_bound(faces, box.min().x() - widest, {}, low);
-    for (auto face = first; face != faces.end() && low(*face) <= box.max().x(); ++face) {
+    const auto first = std::ranges::lower_bound(faces, box.min()[axis] - widest, {}, low);
+    for (auto face = first; face != faces.end() && low(*face) <= box.max()[axis]; ++face) {
       const auto [a, b, c] = std::array{face->corner[0], face->corner[1], face->corner[2]};
       if (!face->box.intersects(box) || i == a || i == b || i == c || j == a || j == b || j == c) continue;
       const double depth = depth_through(p, q, point(positions, a), point(positions, b), point(positions, c));

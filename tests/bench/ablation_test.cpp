@@ -44,7 +44,7 @@ TEST(Ablation, PutsInWhatTheSceneHasNot) {
 }
 
 TEST(Ablation, WhatIsLeftOutIsMissed) {
-  const SceneWorth worth = measure_worth(demo::library(), scene({}), 1, [] {});
+  const SceneWorth worth = measure_worth(demo::library(), scene({}), 1, false, [] {});
   ASSERT_EQ(worth.parts.size(), parts().size());
   for (const Worth& w : worth.parts) {
     const std::string_view name = w.ablation.part->name;

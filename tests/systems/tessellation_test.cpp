@@ -54,6 +54,32 @@ TEST(Tessellation, GoesThroughTheParticles) {
   }
 }
 
+/// A sheet on a ball of radius r with the ball's own normals: how far from it each surface is drawn, RMS, m.
+double off_the_ball(SurfaceMode mode, float r) {
+  Surface s(sheet(6), 3);
+  s.mode = mode;
+  s.move([&](const Vec3& x) { return normalized_or(Vec3{x.x, 0.6f, x.z}, {}) * r; });
+  for (std::uint32_t i = 0; i < s.garment.particle_count; ++i)
+    s.normal.view().set(i, s.position.view()[i] * (1.0f / r));
+  s.tessellation().run();
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < s.pattern.vertex_count; ++i) {
+    const double off = double(length(s.drawn.view()[i])) - double(r);
+    sum += off * off;
+  }
+  return std::sqrt(sum / s.pattern.vertex_count);
+}
+
+TEST(Tessellation, AlternativesOnABallAreAsGoodAsTheyShould) {
+  const float r = 0.5f;
+  const double flat = off_the_ball(SurfaceMode::kFlat, r), pn = off_the_ball(SurfaceMode::kPn, r);
+  EXPECT_LT(off_the_ball(SurfaceMode::kSpherigon, r), 1e-6);  // its points are on every ball, by construction
+  EXPECT_LT(pn, 0.06 * flat);
+  EXPECT_LT(off_the_ball(SurfaceMode::kArcPn, r), 0.4 * pn);
+  // Three quarters of the way to the tangent planes; half of it would be the ball's curvature.
+  EXPECT_NEAR(off_the_ball(SurfaceMode::kPhong, r) / flat, 0.5, 0.07);
+}
+
 class TessellationLevel : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(TessellationLevel, EdgeVerticesDependOnTheEdgeAlone) {
