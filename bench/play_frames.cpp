@@ -22,6 +22,10 @@ int run_program(int argc, char** argv) {
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
   app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
   app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
+  app.add_option("--set", request.settings, "a setting of the cloths, see `pleat list`; may be repeated")
+      ->type_name("KEY=VALUE");
+  bool explain = false;
+  app.add_flag("--explain", explain, "print which systems run, and why others do not");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -29,6 +33,10 @@ int run_program(int argc, char** argv) {
   }
   const pleat_api& api = demo::library();
   demo::Scene scene(api, demo::load_scene(api, request));
+  if (explain)
+    scene.check(api.world_explain(
+                    scene.world(), [](const char* line, void*) { std::puts(line); }, nullptr),
+                "plan");
   std::vector<demo::DrawnSurface> surfaces;
   for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
   for (uint32_t frame = 0; frame < scene.def().frames; ++frame) {

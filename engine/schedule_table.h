@@ -1,6 +1,7 @@
 // A row of the schedule, and what a system gets to work on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -19,6 +20,7 @@ enum class Phase : std::uint32_t {
   kCheck,
   kFrameEnd
 };
+inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::kFrameEnd) + 1;
 
 /// One cloth during one tick: the views of its ranges, and where in the tick it is.
 struct ClothTick {
@@ -64,5 +66,7 @@ std::span<const Row> surface_rows();
 
 /// All systems of this build, in the order in which they run.
 std::span<const Row> schedule_table();
+/// Those of a phase, a bit for each as in a Plan.
+Plan rows_of(Phase phase);
 
 }  // namespace pleat

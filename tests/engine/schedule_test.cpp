@@ -23,6 +23,15 @@ TEST(Schedule, ExplainHasALineForEachSystemInOrder) {
   }
 }
 
+TEST(Schedule, EveryRowIsOfItsPhaseAlone) {
+  for (std::size_t r = 0; r < schedule_table().size(); ++r) {
+    for (std::size_t phase = 0; phase < kPhases; ++phase) {
+      const bool own = schedule_table()[r].phase == static_cast<Phase>(phase);
+      EXPECT_EQ((rows_of(static_cast<Phase>(phase)) >> r & 1) != 0, own) << schedule_table()[r].name;
+    }
+  }
+}
+
 TEST(Schedule, PhasesOfTheTableNeverGoBack) {
   for (std::size_t r = 1; r < schedule_table().size(); ++r) {
     EXPECT_LE(schedule_table()[r - 1].phase, schedule_table()[r].phase) << schedule_table()[r].name;
