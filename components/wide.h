@@ -3,6 +3,8 @@
 // may contract or reorder arithmetic (see pleat_options), so all of them give the same bits.
 #pragma once
 
+#include <algorithm>
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten))
 #define PLEAT_HAS_AVX2 (__builtin_cpu_supports("avx2") != 0)
@@ -17,9 +19,12 @@ namespace pleat {
 
 enum class VectorSet { kBaseline, kAvx2 };
 
+/// What widest_vectors() says at most. For tests and measurements, and to be set only while no kernel runs.
+inline VectorSet vector_limit = VectorSet::kAvx2;
+
 inline VectorSet widest_vectors() {
   static const VectorSet widest = PLEAT_HAS_AVX2 ? VectorSet::kAvx2 : VectorSet::kBaseline;
-  return widest;
+  return std::min(widest, vector_limit);
 }
 
 namespace compiled {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "components/wide.h"
 #include "tests/engine/counting_new.h"
 #include "tests/engine/scene.h"
 
@@ -115,6 +116,18 @@ TEST(Step, TwoWorldsGiveTheSameBits) {
     a.tick();
     b.tick();
     ASSERT_TRUE(same_bits(a.state(), b.state())) << i;
+  }
+}
+
+TEST(Step, EveryVectorSetGivesTheSameBits) {
+  if (widest_vectors() == VectorSet::kBaseline) GTEST_SKIP() << "the processor has no AVX2";
+  Messy wide, narrow;
+  for (int i = 0; i < 60; ++i) {
+    wide.tick();
+    vector_limit = VectorSet::kBaseline;
+    narrow.tick();
+    vector_limit = VectorSet::kAvx2;
+    ASSERT_TRUE(same_bits(wide.state(), narrow.state())) << i;
   }
 }
 
