@@ -66,6 +66,7 @@ std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [
                            .position = t.position,
                            .velocity = t.velocity,
                            .capsules = &t.world.capsules,
+                           .bodies = t.world.bodies.get(),
                            .meshes = t.world.mesh_pointers.data(),
                            .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
                            .thickness = t.settings.thickness,

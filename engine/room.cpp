@@ -37,11 +37,9 @@ void make_dynamics_room(World& world, const ClothRecord& cloth) {
 
 void make_surface_room(World& world, const ClothRecord& cloth) {
   const bool curved = cloth.settings.surface != PLEAT_SURFACE_FLAT && cloth.pattern() != nullptr;
-  std::size_t normals = 0, edges = 0;
-  for (const ClothRecord& other : world.clothes) {
-    normals += padded(other.garment().normal_count);
-    edges += padded(other.garment().edge_count);
-  }
+  const ClothRecord& last = world.clothes.back();
+  const std::size_t normals = last.normal_begin + padded(last.garment().normal_count);
+  const std::size_t edges = last.edge_begin + padded(last.garment().edge_count);
   if (curved || world.surface.normal.size() != 0) world.surface.normal.resize(normals);
   const bool folded = curved && has_folds(static_cast<SurfaceMode>(cloth.settings.surface));
   if (folded || world.surface.fold.size() != 0) {

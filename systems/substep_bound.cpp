@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/box.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
@@ -27,7 +26,7 @@ float motion_near(const Box& cloth, const MeshCollider& mesh, const Vec3& carrie
 }  // namespace
 
 bool SubstepBound::validate() const {
-  return position.x != nullptr && velocity.x != nullptr && capsules != nullptr &&
+  return position.x != nullptr && velocity.x != nullptr && capsules != nullptr && bodies != nullptr &&
          (meshes != nullptr || mesh_count == 0) && thickness >= 0.0f && dt > 0.0f;
 }
 
@@ -46,16 +45,15 @@ std::uint32_t SubstepBound::run() const {
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   float most = 1.0f;
-  for (std::size_t i = 0; i < capsules->size(); ++i) {
-    if (capsules->enabled[i] == 0) continue;
+  bodies->for_each_capsule(cloth, [&](std::uint32_t i) {
     Box swept;
     for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
     const float radius = capsules->radius[i], taper = capsules->taper[i];
-    if (!swept.grown(radius + std::max(taper, 0.0f)).overlaps(cloth)) continue;
+    if (!swept.grown(radius + std::max(taper, 0.0f)).overlaps(cloth)) return;
     const float reach = radius + std::min(taper, 0.0f) + capsules->thickness[i] + thickness;
     const float motion = std::max(length(a1[i] - a0[i] - carried), length(b1[i] - b0[i] - carried));
     most = std::max(most, (motion + own) / std::max(0.5f * reach, kLeastReach));
-  }
+  });
   for (std::uint32_t m = 0; m < mesh_count; ++m) {
     if (!meshes[m]->enabled) continue;
     const float motion = motion_near(cloth, *meshes[m], carried);

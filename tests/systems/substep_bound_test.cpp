@@ -13,6 +13,7 @@ constexpr float kDt = 1.0f / 30, kRadius = 0.045f, kThickness = 0.005f;
 struct Crossing {
   Sheet sheet{make_grid({.rows = 4, .columns = 4})};
   CapsuleColumns capsules{std::pmr::new_delete_resource()};
+  CollisionBodies bodies{std::pmr::new_delete_resource()};
 
   Crossing(const Vec3& from, const Vec3& to) {
     for (Vec3Column* column : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
@@ -32,10 +33,12 @@ struct Crossing {
     for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.velocity.set(i, v);
   }
   SubstepBound job() {
+    bodies.update_capsules(capsules);
     return {.particle_count = sheet.count,
             .position = sheet.position,
             .velocity = sheet.velocity,
             .capsules = &capsules,
+            .bodies = &bodies,
             .thickness = kThickness,
             .dt = kDt};
   }
@@ -51,6 +54,8 @@ TEST(SubstepBound, RefusesToRunWithAFieldMissing) {
   bad = good, bad.velocity = {};
   EXPECT_FALSE(bad.validate());
   bad = good, bad.capsules = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.bodies = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.dt = 0.0f;
   EXPECT_FALSE(bad.validate());
