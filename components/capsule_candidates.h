@@ -1,5 +1,4 @@
-// What of a cloth may touch which capsule before they have moved much: looked up now and then, measured in each
-// substep.
+// What of a cloth may touch which capsule before they have moved much: looked up now and then, tested in each substep.
 #pragma once
 
 #include <bit>
@@ -41,17 +40,6 @@ struct CapsuleCandidateColumns {
   float margin = 0.0f;             // m, what is looked for besides radius and thickness
 
   explicit CapsuleCandidateColumns(std::pmr::memory_resource* m) : near(m), sought(m), anchor(m) {}
-};
-
-/// What is measured of one cloth against one capsule at a time.
-struct CapsuleScratch {
-  Column<float> core, ends;  // (P) m2, squared distances from the core and from the nearer of its ends
-  Column<float> edge;        // (E) m2, squared lengths
-
-  explicit CapsuleScratch(std::pmr::memory_resource* m) : core(m), ends(m), edge(m) {}
-  bool holds(const Garment& g) const {
-    return core.size() >= g.particle_count && ends.size() >= g.particle_count && edge.size() >= g.edge_count;
-  }
 };
 
 }  // namespace pleat

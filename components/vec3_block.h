@@ -3,13 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
-#include "components/vec3.h"
+#include "components/lanes.h"
 
 namespace pleat {
-
-inline constexpr std::uint32_t kLanes = 8;
 
 struct Vec3Block {
   float x[kLanes], y[kLanes], z[kLanes];

@@ -166,8 +166,7 @@ constexpr Row kRows[] = {
                              .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
                              .first = t.t0 == 0.0f,
-                             .candidates = &t.worker.capsule_candidates,
-                             .scratch = &t.worker.capsule_scratch});
+                             .candidates = &t.worker.capsule_candidates});
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {
@@ -180,7 +179,6 @@ constexpr Row kRows[] = {
                             .thickness = t.settings.thickness,
                             .friction = t.settings.friction,
                             .dt = t.dt,
-                            .scratch = &t.worker.capsule_scratch,
                             .candidates = &t.worker.capsule_candidates,
                             .contacts = contacts_of(t)},
            t.worker.stats);

@@ -59,10 +59,6 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   at_least(candidates.near, FeatureWords(g).end * worker.capsule_poses.size());
   at_least(candidates.sought, worker.capsule_poses.size());
   at_least(candidates.anchor, g.particle_count);
-  CapsuleScratch& scratch = worker.capsule_scratch;
-  at_least(scratch.core, g.particle_count);
-  at_least(scratch.ends, g.particle_count);
-  at_least(scratch.edge, g.edge_count);
   if (!world.meshes.empty()) {
     at_least(worker.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
     at_least(worker.mesh_candidates.anchor, g.particle_count);

@@ -21,7 +21,6 @@ struct Worker {
   HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
   CapsuleCandidateColumns capsule_candidates;
-  CapsuleScratch capsule_scratch;
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
   NearScratch near_scratch;         // empty unless cloth touches cloth
@@ -42,7 +41,6 @@ struct Worker {
         hinge_scratch(m),
         capsule_poses(m),
         capsule_candidates(m),
-        capsule_scratch(m),
         contacts(m),
         mesh_candidates(m),
         near_scratch(m),

@@ -1,13 +1,13 @@
 #include "systems/capsule_candidates.h"
 
+#include <algorithm>
+
 #include "components/wide.h"
-#include "systems/capsule_shape.h"
+#include "systems/capsule_lanes.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
 namespace {
-
-constexpr float kRelied = 0.999f;  // of the skin; the rest is for rounding
 
 /// The furthest that particles and cores have come away from where they were, beside the particles' mean motion, m.
 float relative_motion(const CapsuleCandidates& in) {
@@ -16,11 +16,11 @@ float relative_motion(const CapsuleCandidates& in) {
   Vec3 sum;
   for (std::uint32_t i = 0; i < count; ++i) sum += in.position[i] - anchor[i];
   const Vec3 mean = sum * (1.0f / static_cast<float>(count));
-  float cloth2 = 0.0f, cores2 = 0.0f;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 d = in.position[i] - anchor[i] - mean;
-    cloth2 = std::max(cloth2, dot(d, d));
-  }
+  const float cloth2 = largest(count, [&](std::size_t i) {
+    const Vec3Lanes d = load(in.position, i) - load(anchor, i) - all(mean);
+    return dot(d, d);
+  });
+  float cores2 = 0.0f;
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
     const Vec3 a = now.a - then.a - mean, b = now.b - then.b - mean;
@@ -35,56 +35,39 @@ bool same_capsules(const CapsuleCandidates& in) {
          std::equal(in.capsules, in.capsules + in.capsule_count, in.candidates->sought.begin(), same);
 }
 
-/// Bit i of `bits` is is_near(i), without a branch.
-template <class Predicate>
-PLEAT_KERNEL void mark(std::uint64_t* bits, std::uint32_t count, const Predicate& is_near) {
-  for (std::uint32_t begin = 0; begin < count; begin += 64) {
-    const std::uint32_t end = std::min(count - begin, 64u);
-    std::uint64_t word = 0;
-    for (std::uint32_t k = 0; k < end; ++k) word |= std::uint64_t{is_near(begin + k)} << k;
-    *bits++ = word;
+/// Marks one kind of features, which begin at `word` of each capsule's set, a word at a time. Columns' padding belongs
+/// to particle 0.
+template <class Features, class MakeFeatures>
+PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::uint32_t count,
+                            const MakeFeatures& make) {
+  constexpr std::uint32_t kBits = 64;
+  const std::size_t words = FeatureWords(*in.garment).end;
+  for (std::uint32_t begin = 0; begin < count; begin += kBits) {
+    const std::uint32_t rest = std::min(count - begin, kBits);
+    const std::uint64_t used = ~std::uint64_t{0} >> (kBits - rest);
+    Features features[kBits / kLanes];
+    for (std::uint32_t k = 0; k < rest; k += kLanes) features[k / kLanes] = make(begin + k);
+    std::uint64_t* at = in.candidates->near.data() + word + begin / kBits;
+    for (std::uint32_t c = 0; c < in.capsule_count; ++c, at += words) {
+      const Core core(in.capsules[c], widest_radius(in.capsules[c]) + in.thickness + in.candidates->margin);
+      std::uint64_t marks = 0;
+      for (std::uint32_t k = 0; k < rest; k += kLanes) {
+        marks |= std::uint64_t{bits(is_near(core, features[k / kLanes]))} << k;
+      }
+      *at = marks & used;
+    }
   }
 }
 
-/// Squared distances of all particles from the core and from the nearer of its ends.
-PLEAT_KERNEL void measure_particles(const CapsuleCandidates& in, const CapsulePose& capsule) {
-  const Vec3 a = capsule.a, axis = capsule.b - capsule.a;
-  const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
-  float *core = in.scratch->core.data(), *ends = in.scratch->ends.data();
-  for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
-    const Vec3 p = in.position[i] - a;
-    const Vec3 d = p - axis * std::min(std::max(dot(p, axis) * inverse, 0.0f), 1.0f), q = p - axis;
-    core[i] = dot(d, d);
-    ends[i] = std::min(dot(p, p), dot(q, q));
-  }
-}
-
-PLEAT_KERNEL void measure_edges(const CapsuleCandidates& in) {
-  const auto& end = in.garment->edge_particle;
-  float* length2 = in.scratch->edge.data();
-  for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
-    const Vec3 d = in.position[end[1][e]] - in.position[end[0][e]];
-    length2[e] = dot(d, d);
-  }
-}
-
-PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, const CapsulePose& capsule, std::uint64_t* near) {
+PLEAT_KERNEL void mark_all(const CapsuleCandidates& in) {
   const Garment& g = *in.garment;
   const FeatureWords words(g);
-  const float reach = widest_radius(capsule) + in.thickness + in.candidates->margin, reach2 = reach * reach;
-  const float *core = in.scratch->core.data(), *ends = in.scratch->ends.data();
-  const float* length2 = in.scratch->edge.data();
-  measure_particles(in, capsule);
-  mark(near + words.particles, g.particle_count, [&](std::uint32_t i) { return core[i] < reach2; });
-  const std::uint32_t *first = g.edge_particle[0].data(), *second = g.edge_particle[1].data();
-  mark(near + words.edges, g.edge_count,
-       [&](std::uint32_t e) { return !segment_is_beyond(core[first[e]], core[second[e]], length2[e], reach2); });
-  const std::uint32_t *i = g.face_particle[0].data(), *j = g.face_particle[1].data(), *k = g.face_particle[2].data();
-  const std::uint32_t *u = g.face_edge[0].data(), *v = g.face_edge[1].data(), *w = g.face_edge[2].data();
-  mark(near + words.faces, g.face_count, [&](std::uint32_t f) {
-    const float nearest2 = std::min(std::min(ends[i[f]], ends[j[f]]), ends[k[f]]);
-    const float longest2 = std::max(std::max(length2[u[f]], length2[v[f]]), length2[w[f]]);
-    return !triangle_is_beyond(nearest2, longest2, reach2);
+  const ConstVec3View x = in.position;
+  mark_near<Vec3Lanes>(in, words.particles, g.particle_count, [&](std::size_t i) { return load(x, i); });
+  mark_near<EdgeLanes>(in, words.edges, g.edge_count,
+                       [&](std::size_t e) { return EdgeLanes(x, &g.edge_particle[0][e], &g.edge_particle[1][e]); });
+  mark_near<FaceLanes>(in, words.faces, g.face_count, [&](std::size_t f) {
+    return FaceLanes(x, &g.face_particle[0][f], &g.face_particle[1][f], &g.face_particle[2][f]);
   });
 }
 
@@ -94,28 +77,20 @@ bool CapsuleCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr &&
          (capsules != nullptr || capsule_count == 0) && thickness >= 0.0f && candidates != nullptr &&
          candidates->near.size() >= FeatureWords(*garment).end * capsule_count &&
-         candidates->sought.size() >= capsule_count && candidates->anchor.size() >= garment->particle_count &&
-         scratch != nullptr && scratch->holds(*garment);
+         candidates->sought.size() >= capsule_count && candidates->anchor.size() >= garment->particle_count;
 }
 
 void CapsuleCandidates::run() const {
   CapsuleCandidateColumns& out = *candidates;
   const std::uint32_t count = garment->particle_count;
   const float margin = contact_margin(position, previous, count);
-  if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - (1.0f - kRelied) * kSkin)
-    return;
+  if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - kLaneRounding) return;
 
   for (std::uint32_t i = 0; i < count; ++i) out.anchor.view().set(i, position[i]);
   std::copy_n(capsules, capsule_count, out.sought.begin());
   out.sought_count = capsule_count;
-  out.margin = margin + kSkin;
-  run_wide(widest_vectors(), [this] {
-    measure_edges(*this);
-    std::uint64_t* near = candidates->near.data();
-    for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
-      mark_near(*this, capsules[c], near);
-    }
-  });
+  out.margin = margin + kSkin + kLaneRounding;
+  run_wide(widest_vectors(), [this] { mark_all(*this); });
 }
 
 }  // namespace pleat

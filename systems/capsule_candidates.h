@@ -11,7 +11,7 @@ namespace pleat {
 /// are as long as they lack nothing: while the cloth's mean motion since they were made takes every particle and every
 /// core along to within the skin, less what contact_margin has grown by.
 /// Reads:  garment edges, faces; position (predicted), previous (P) m; capsules, ascending by index
-/// Writes: candidates; scratch
+/// Writes: candidates
 /// Cost:   O(P + capsules) where marks still hold, else O((P + E + F) capsules); no allocation.
 /// Errors: none.
 struct CapsuleCandidates {
@@ -23,9 +23,8 @@ struct CapsuleCandidates {
   float thickness = 0.0f;  // m
   bool first = true;       // substep of the tick: there are no marks yet
   CapsuleCandidateColumns* candidates = nullptr;
-  CapsuleScratch* scratch = nullptr;
 
-  static constexpr float kSkin = 0.03f;  // m
+  static constexpr float kSkin = 0.02f;  // m
 
   bool validate() const;
   void run() const;

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "components/wide.h"
-#include "systems/capsule_shape.h"
+#include "systems/capsule_lanes.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
@@ -24,6 +23,17 @@ Vec3 any_perpendicular(const Vec3& a) {
   return normalized_or(std::abs(a.x) < std::abs(a.y) ? Vec3{0.0f, a.z, -a.y} : Vec3{-a.z, 0.0f, a.x}, {0, 1, 0});
 }
 
+/// Some candidates, side by side.
+struct Batch {
+  std::uint32_t feature[kLanes];
+  std::uint32_t count = 0;
+
+  /// Column `of` of the features; places without one repeat the first.
+  void look_up(const Column<std::uint32_t>& of, std::uint32_t (&found)[kLanes]) const {
+    for (std::uint32_t k = 0; k < kLanes; ++k) found[k] = of[feature[k < count ? k : 0]];
+  }
+};
+
 /// One capsule against one cloth.
 struct CapsuleTest {
   const CapsuleDetection& in;
@@ -33,11 +43,8 @@ struct CapsuleTest {
   const std::uint64_t* near;
   FeatureWords words = FeatureWords(*in.garment);
   float reach = widest_radius(capsule) + in.thickness + margin;  // from the core
-  float* distance2 = in.scratch->core.data();                    // (P) squared, from the core
 
   void run(Stats& stats) const {
-    if (std::all_of(near, near + words.end, [](std::uint64_t word) { return word == 0; })) return;
-    run_wide(widest_vectors(), [this] { measure_particles(); });
     test_particles(stats);
     test_edges(stats);
     test_faces(stats);
@@ -71,78 +78,103 @@ struct CapsuleTest {
     return given;
   }
 
-  void measure_particles() const {
-    const Vec3 a = capsule.a, axis = capsule.b - capsule.a;
-    const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
-    for (std::uint32_t i = 0; i < in.garment->particle_count; ++i) {
-      const Vec3 p = in.position[i] - a;
-      const Vec3 d = p - axis * std::min(std::max(dot(p, axis) * inverse, 0.0f), 1.0f);
-      distance2[i] = dot(d, d);
-    }
-  }
-
   /// A row that keeps a point of the cloth, now `away` from core(t) and `away_before` from it when the substep began,
   /// on the side where it was.
   void add_round(const std::uint32_t (&particle)[3], const float (&weight)[3], float t, const Vec3& away,
                  const Vec3& away_before, bool at_particle, Stats& stats, float relaxation = 1.0f) const {
     const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
-    const Vec3 fallback = normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
-    const Vec3 normal = dot(away, away) > 1e-12f ? normalized_or(away * side, fallback) : fallback;
+    const float away2 = dot(away, away);
+    const Vec3 normal = away2 > 1e-12f ? away * (side / std::sqrt(away2))
+                                       : normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
     const float kept = distance(t) - given_up(core(t) + away, normal, distance(t) - dot(normal, away));
     rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats, relaxation);
   }
 
   void test_particles(Stats& stats) const {
     for_each_bit(near + words.particles, near + words.edges, [&](std::uint32_t i) {
-      if (!(distance2[i] < reach * reach) || in.inverse_mass[i] == 0.0f) return;
+      if (in.inverse_mass[i] == 0.0f) return;
       const Vec3 p = in.position[i];
       const float t = closest_on_capsule(p, capsule);
-      add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, p - core(t), in.previous[i] - core_before(t), true, stats);
+      const Vec3 away = p - core(t);
+      if (!(dot(away, away) < reach * reach)) return;
+      add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, away, in.previous[i] - core_before(t), true, stats);
     });
+  }
+
+  /// visit(k) for those of a batch that may be within reach: most candidates no longer are.
+  template <class Predicate, class Visitor>
+  void for_each_in_reach(Batch& batch, const Predicate& may_be, const Visitor& visit) const {
+    std::uint64_t marks = 0;
+    run_wide(widest_vectors(), [&] { marks = bits(may_be(Core(capsule, reach + kLaneRounding))); });
+    marks &= (1u << batch.count) - 1;
+    for_each_bit(&marks, &marks + 1, [&](std::uint32_t k) { visit(batch.feature[k]); });
+    batch.count = 0;
+  }
+
+  /// test(batch) for all candidates, in order.
+  template <class Test>
+  void for_each_batch(const std::uint64_t* begin, const std::uint64_t* end, const Test& test) const {
+    Batch batch;
+    for_each_bit(begin, end, [&](std::uint32_t feature) {
+      batch.feature[batch.count++] = feature;
+      if (batch.count == kLanes) test(batch);
+    });
+    if (batch.count != 0) test(batch);
   }
 
   void test_edges(Stats& stats) const {
     const auto& end = in.garment->edge_particle;
-    for_each_bit(near + words.edges, near + words.faces, [&](std::uint32_t e) {
-      const std::uint32_t i = end[0][e], j = end[1][e];
-      const Vec3 xi = in.position[i], xj = in.position[j], along = xj - xi;
-      if (segment_is_beyond(distance2[i], distance2[j], dot(along, along), reach * reach)) return;
-      const SegmentPair at = closest_to_capsule(xi, xj, capsule);
-      if (at.s < kEndShare || at.s > 1.0f - kEndShare) return;
-      const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
-      if (!(dot(away, away) < reach * reach)) return;
-      const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
-      add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats, relaxation_at(at.s));
+    for_each_batch(near + words.edges, near + words.faces, [&](Batch& batch) {
+      std::uint32_t i[kLanes], j[kLanes];
+      batch.look_up(end[0], i), batch.look_up(end[1], j);
+      for_each_in_reach(
+          batch, [&](const Core& core) { return is_near(core, EdgeLanes(in.position, i, j)); },
+          [&](std::uint32_t e) { test_edge(end[0][e], end[1][e], stats); });
     });
+  }
+
+  void test_edge(std::uint32_t i, std::uint32_t j, Stats& stats) const {
+    const Vec3 xi = in.position[i], xj = in.position[j];
+    const SegmentPair at = closest_to_capsule(xi, xj, capsule);
+    if (at.s < kEndShare || at.s > 1.0f - kEndShare) return;
+    const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
+    if (!(dot(away, away) < reach * reach)) return;
+    const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
+    add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats, relaxation_at(at.s));
   }
 
   /// Where an end of the core is over the inside of a face; all other places that are closest belong to its edges.
   void test_faces(Stats& stats) const {
     const auto& corner = in.garment->face_particle;
-    const Vec3 ends[2] = {core(0.0f), core(1.0f)};
-    const bool is_sphere = capsule.a == capsule.b;
-    for_each_bit(near + words.faces, near + words.end, [&](std::uint32_t f) {
-      const std::uint32_t i = corner[0][f], j = corner[1][f], k = corner[2][f];
-      const Vec3 xi = in.position[i], u = in.position[j] - xi, v = in.position[k] - xi;
-      const Vec3 area = cross(u, v);
-      const float area2 = dot(area, area);
-      if (!(area2 > 1e-16f)) return;
-      for (int end = 0; end < (is_sphere ? 1 : 2); ++end) {
-        const float t = static_cast<float>(end);
-        const Vec3 w = ends[end] - xi;
-        const float height = dot(w, area);
-        if (height * height > reach * reach * area2) continue;
-        const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
-        if (!(bj > 0.0f && bk > 0.0f && bj + bk < 1.0f)) continue;
-        const float bi = 1.0f - bj - bk;
-        const Vec3 before = in.previous[i] * bi + in.previous[j] * bj + in.previous[k] * bk - core_before(t);
-        const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
-        const Vec3 normal = area * (side / std::sqrt(area2));
-        const float away = -dot(w, normal);
-        const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
-        rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
-      }
+    for_each_batch(near + words.faces, near + words.end, [&](Batch& batch) {
+      std::uint32_t i[kLanes], j[kLanes], k[kLanes];
+      batch.look_up(corner[0], i), batch.look_up(corner[1], j), batch.look_up(corner[2], k);
+      for_each_in_reach(
+          batch, [&](const Core& core) { return is_under(core, FaceLanes(in.position, i, j, k)); },
+          [&](std::uint32_t f) { test_face(corner[0][f], corner[1][f], corner[2][f], stats); });
     });
+  }
+
+  void test_face(std::uint32_t i, std::uint32_t j, std::uint32_t k, Stats& stats) const {
+    const Vec3 xi = in.position[i], u = in.position[j] - xi, v = in.position[k] - xi;
+    const Vec3 area = cross(u, v);
+    const float area2 = dot(area, area);
+    if (!(area2 > 1e-16f)) return;
+    for (int end = 0; end < (capsule.a == capsule.b ? 1 : 2); ++end) {
+      const float t = static_cast<float>(end);
+      const Vec3 w = core(t) - xi;
+      const float height = dot(w, area);
+      if (height * height > reach * reach * area2) continue;
+      const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
+      if (!(bj > 0.0f && bk > 0.0f && bj + bk < 1.0f)) continue;
+      const float bi = 1.0f - bj - bk;
+      const Vec3 before = in.previous[i] * bi + in.previous[j] * bj + in.previous[k] * bk - core_before(t);
+      const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
+      const Vec3 normal = area * (side / std::sqrt(area2));
+      const float away = -dot(w, normal);
+      const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
+      rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
+    }
   }
 };
 
@@ -150,9 +182,9 @@ struct CapsuleTest {
 
 bool CapsuleDetection::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
-         (capsules != nullptr || capsule_count == 0) && scratch != nullptr && scratch->holds(*garment) &&
-         candidates != nullptr && candidates->near.size() >= FeatureWords(*garment).end * capsule_count &&
-         contacts.count != nullptr && thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
+         (capsules != nullptr || capsule_count == 0) && candidates != nullptr &&
+         candidates->near.size() >= FeatureWords(*garment).end * capsule_count && contacts.count != nullptr &&
+         thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
 }
 
 void CapsuleDetection::run(Stats& stats) const {

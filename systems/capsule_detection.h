@@ -17,9 +17,8 @@ namespace pleat {
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules; candidates, of these
-/// capsules Writes: scratch; contacts, added to; stats.contacts_dropped Cost:   O((P + candidates) capsules), no
-/// allocation; nothing for a capsule without candidates. Errors: none; features without extent make finite rows or
-/// none.
+/// Writes: contacts, added to; stats.contacts_dropped
+/// Cost:   O(candidates), no allocation. Errors: none; features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
@@ -30,7 +29,6 @@ struct CapsuleDetection {
   float thickness = 0.0f;  // m
   float friction = 0.0f;
   float dt = 0.0f;  // s, of the substep
-  CapsuleScratch* scratch = nullptr;
   const CapsuleCandidateColumns* candidates = nullptr;
   ContactList contacts;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "components/contacts.h"
+#include "components/lanes.h"
 #include "components/stats.h"
 #include "systems/closest_points.h"
 
@@ -12,11 +13,10 @@ inline constexpr float kLeastMargin = 0.01f;  // m
 /// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
 /// may be moved against: kLeastMargin, or more for a cloth that moves further in the substep. m
 inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
-  float motion2 = 0.0f;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 d = position[i] - previous[i];
-    motion2 = std::max(motion2, dot(d, d));
-  }
+  const float motion2 = largest(count, [&](std::size_t i) {
+    const Vec3Lanes d = load(position, i) - load(previous, i);
+    return dot(d, d);
+  });
   return std::max(kLeastMargin, std::sqrt(motion2));
 }
 

@@ -1,7 +1,10 @@
 #include "systems/surface_clearance.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "components/lanes.h"
+#include "components/wide.h"
 #include "systems/capsule_shape.h"
 
 namespace pleat {
@@ -9,32 +12,35 @@ namespace {
 
 /// The drawn vertices of one face in the face's own numbering, and what a capsule makes of them.
 struct FaceVertices {
-  static constexpr std::uint32_t kRoom = kMaxVerticesPerFace;
+  static constexpr std::uint32_t kRoom = (kMaxVerticesPerFace + kLanes - 1) / kLanes * kLanes;
   const std::uint32_t* drawn;
-  std::uint32_t count;
+  std::uint32_t count, room;              // of vertices; in whole lanes, whose rest repeats the first vertex
+  Vec3 corner[3];                         // m, of the coarse triangle
   float longest_side2;                    // m2, of a footprint at most, squared
   Vec3 center;                            // m, of the face
   float size, bulge;                      // m, from the center to the furthest corner; of the vertices, the largest
   float x[kRoom], y[kRoom], z[kRoom];     // m, on the coarse triangle
   float dx[kRoom], dy[kRoom], dz[kRoom];  // m, from there to where they are drawn
-  float moved2[kRoom];                    // m2, the length of that, squared
-  float distance2[kRoom];                 // m2, from the core to the place on the coarse triangle, squared
-  float retreat[kRoom];                   // m2, that vector times the motion: negative towards the core
+  float moved[kRoom], distance2[kRoom], approach[kRoom];  // m, m2, m: the length of that; see measure
 
-  FaceVertices(const SurfaceClearance& in, std::uint32_t f)
+  PLEAT_KERNEL FaceVertices(const SurfaceClearance& in, std::uint32_t f)
       : drawn(in.pattern->face_vertices.data() + std::size_t{f} * in.pattern->vertices_per_face),
-        count(in.pattern->vertices_per_face) {
-    const ConstVec3View to = in.drawn_position;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t v = drawn[i];
-      x[i] = in.footprint.x[v], y[i] = in.footprint.y[v], z[i] = in.footprint.z[v];
-      dx[i] = to.x[v] - x[i], dy[i] = to.y[v] - y[i], dz[i] = to.z[v] - z[i];
+        count(in.pattern->vertices_per_face),
+        room((count + kLanes - 1) / kLanes * kLanes) {
+    Lanes most{};
+    for (std::uint32_t i = 0; i < room; i += kLanes) {
+      std::uint32_t index[kLanes];
+      for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[i + k < count ? i + k : 0];
+      const Vec3Lanes place = gather(in.footprint, index), motion = gather(in.drawn_position, index) - place;
+      const Lanes length = sqrt(dot(motion, motion));
+      store(place, {x, y, z}, i);
+      store(motion, {dx, dy, dz}, i);
+      store(length, moved + i);
+      most = max(length, most);
     }
-    for (std::uint32_t i = 0; i < count; ++i) moved2[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
-    float bulge2 = 0.0f;
-    for (std::uint32_t i = 0; i < count; ++i) bulge2 = std::max(bulge2, moved2[i]);
-    bulge = std::sqrt(bulge2);
-    const Vec3 a = at(0), b = at(1), c = at(2);
+    bulge = largest(most);
+    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = in.footprint[drawn[k]];
+    const auto [a, b, c] = corner;
     center = (a + b + c) * (1.0f / 3.0f);
     size = std::max({length(a - center), length(b - center), length(c - center)});
     // A footprint joins neighbours on the grid of the pattern; in the fan also the center to an edge's middle.
@@ -43,28 +49,38 @@ struct FaceVertices {
   }
 
   Vec3 at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
-  bool any_nearer_than(float limit2) const {
-    int any = 0;
-    for (std::uint32_t i = 0; i < count; ++i) any |= distance2[i] < limit2;
-    return any != 0;
+
+  /// How far the places are from the core, squared, m2, and how far the motion goes towards it, m. Returns the least of
+  /// the first.
+  PLEAT_KERNEL float measure(const CapsulePose& c) {
+    const Vec3 along = c.b - c.a;
+    const float along2 = dot(along, along);
+    const Vec3Lanes a = all(c.a), axis = all(along);
+    const Lanes inverse = all(along2 > 0.0f ? 1.0f / along2 : 0.0f);
+    Lanes least = all(std::numeric_limits<float>::max());
+    for (std::uint32_t i = 0; i < room; i += kLanes) {
+      const Vec3Lanes p = load({x, y, z}, i) - a, away = p - axis * clamped(dot(p, axis) * inverse);
+      const Lanes d2 = dot(away, away);
+      store(d2, distance2 + i);
+      store(-dot(away, load({dx, dy, dz}, i)) / sqrt(d2), approach + i);
+      least = min(d2, least);
+    }
+    return -largest(-least);
   }
 
-  void measure(const CapsulePose& c) {
-    const Vec3 axis = c.b - c.a;
-    const float axis2 = dot(axis, axis), inverse = axis2 > 0.0f ? 1.0f / axis2 : 0.0f;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec3 p = at(i) - c.a;
-      const Vec3 away = p - axis * std::min(std::max(dot(p, axis) * inverse, 0.0f), 1.0f);
-      distance2[i] = dot(away, away);
-      retreat[i] = away.x * dx[i] + away.y * dy[i] + away.z * dz[i];
-    }
+  /// How far the vertices approach the core at most, m, where a footprint is `distance` or more from it: see stays_out.
+  PLEAT_KERNEL float largest_fall(float distance) const {
+    const float turn = std::sqrt(longest_side2) / distance;
+    Lanes most{};
+    for (std::uint32_t i = 0; i < room; i += kLanes) most = max(load(approach + i) + load(moved + i) * turn, most);
+    return largest(most);
   }
 };
 
 struct Lifter {
   const SurfaceClearance& in;
 
-  void gather(std::uint32_t f) const {
+  PLEAT_KERNEL void gather_planes(std::uint32_t f) const {
     FaceVertices face(in, f);
     for (std::size_t k = 0; k < in.half_space_count; ++k) {
       if (in.half_spaces[k].enabled) keep_above(face, {in.half_spaces[k], in.t});
@@ -74,8 +90,7 @@ struct Lifter {
       const float kept = widest_radius(capsule) + in.clearance, near = kept + face.size + face.bulge;
       const Vec3 away = face.center - lerp(capsule.a, capsule.b, closest_on_segment(face.center, capsule.a, capsule.b));
       if (dot(away, away) >= near * near) continue;
-      face.measure(capsule);
-      add_planes(face, capsule, kept);
+      add_planes(face, capsule, kept, face.measure(capsule));
     }
   }
 
@@ -89,14 +104,16 @@ struct Lifter {
     }
   }
 
-  void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept) const {
+  PLEAT_KERNEL void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept, float nearest2) const {
     const float far = kept + face.bulge, far2 = far * far + face.longest_side2 * (1.0f / 3.0f);
-    if (!face.any_nearer_than(far2)) return;
+    if (nearest2 >= far2) return;
+    const float distance2 = nearest2 - face.longest_side2 * (1.0f / 3.0f);
+    if (distance2 > kept * kept && std::sqrt(distance2) >= kept + face.largest_fall(std::sqrt(distance2))) return;
     const std::uint32_t* t = in.pattern->face_triangles.data();
     const std::uint32_t* end = t + in.pattern->face_triangles.size();
     for (; t != end; t += 3) {
-      const float nearest2 = std::min({face.distance2[t[0]], face.distance2[t[1]], face.distance2[t[2]]});
-      if (nearest2 < far2 && !stays_out(face, t, nearest2, kept)) add_plane(face, t, capsule);
+      const float near2 = std::min({face.distance2[t[0]], face.distance2[t[1]], face.distance2[t[2]]});
+      if (near2 < far2 && !stays_out(face, t, near2, kept)) add_plane(face, t, capsule);
     }
   }
 
@@ -111,11 +128,7 @@ struct Lifter {
     if (distance2 <= kept * kept) return false;
     const float distance = std::sqrt(distance2), turn = std::sqrt(side2) / distance;
     float fall = 0.0f;
-    for (int k = 0; k < 3; ++k) {
-      const float moved = std::sqrt(face.moved2[t[k]]),
-                  approach = -face.retreat[t[k]] / std::sqrt(face.distance2[t[k]]);
-      fall = std::max(fall, approach + moved * turn);
-    }
+    for (int k = 0; k < 3; ++k) fall = std::max(fall, face.approach[t[k]] + face.moved[t[k]] * turn);
     return distance >= kept + fall;
   }
 
@@ -142,7 +155,9 @@ bool SurfaceClearance::validate() const {
 void SurfaceClearance::run() const {
   if (capsule_count + half_space_count != 0) {
     const Lifter lifter{*this};
-    for (std::uint32_t f = 0; f < garment->face_count; ++f) lifter.gather(f);
+    run_wide(widest_vectors(), [&] {
+      for (std::uint32_t f = 0; f < garment->face_count; ++f) lifter.gather_planes(f);
+    });
   }
   planes.settle(drawn_position);
 }

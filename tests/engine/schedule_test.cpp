@@ -108,7 +108,7 @@ TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
   World& world = scene.inside();
   EXPECT_EQ(world.workers[0].contacts.size(), 0u);
   EXPECT_EQ(world.workers[0].capsule_poses.size(), 0u);
-  EXPECT_EQ(world.workers[0].capsule_scratch.core.size(), 0u);
+  EXPECT_EQ(world.workers[0].capsule_candidates.near.size(), 0u);
   EXPECT_EQ(world.bodies, nullptr);
 }
 

@@ -58,8 +58,7 @@ struct Walk {
             static_cast<std::uint32_t>(capsules.size()),
             kThickness,
             steps == 1,
-            &cloth.candidates,
-            &cloth.scratch};
+            &cloth.candidates};
   }
   std::vector<ContactRow> rows() {
     cloth.row_count = 0;
@@ -73,8 +72,7 @@ struct Walk {
                      kThickness,
                      0.5f,
                      kDt,
-                     &cloth.scratch,
-                     &cloth.candidates,
+                                &cloth.candidates,
                      cloth.contacts()}
         .run(stats);
     return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};
@@ -165,9 +163,6 @@ TEST(CapsuleCandidates, ValidateRefusesBrokenFields) {
   EXPECT_FALSE(bad.validate());
   bad = good;
   bad.thickness = -1.0f;
-  EXPECT_FALSE(bad.validate());
-  bad = good;
-  bad.scratch = nullptr;
   EXPECT_FALSE(bad.validate());
 }
 

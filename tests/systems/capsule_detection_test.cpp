@@ -27,7 +27,6 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
           kThickness,
           0.5f,
           kDt,
-          &cloth.scratch,
           &cloth.candidates,
           cloth.contacts()};
 }

@@ -21,7 +21,6 @@ struct ContactCloth {
   Vec3Column position{memory()}, previous{memory()}, velocity{memory()}, predicted{memory()}, force{memory()};
   Column<float> inverse_mass{memory()};
   CapsuleCandidateColumns candidates{memory()};
-  CapsuleScratch scratch{memory()};
   std::vector<ContactRow> rows = std::vector<ContactRow>(4096);
   std::uint32_t row_count = 0;
 
@@ -31,8 +30,6 @@ struct ContactCloth {
     for (Vec3Column* c : {&position, &previous, &velocity, &predicted, &force}) c->resize(positions.size());
     inverse_mass.resize(positions.size());
     candidates.anchor.resize(positions.size());
-    scratch.core.resize(positions.size()), scratch.ends.resize(positions.size());
-    scratch.edge.resize(garment.edge_count);
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
       put(i, positions[i], positions[i]);
       inverse_mass[i] = garment.pinned[i] != 0 ? 0.0f : 1000.0f;

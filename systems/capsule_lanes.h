@@ -1,0 +1,93 @@
+// Which of a few features of a cloth may be near a capsule, side by side.
+#pragma once
+
+#include "components/garment.h"
+#include "components/lanes.h"
+#include "components/wide.h"
+#include "systems/capsule_shape.h"
+
+namespace pleat {
+
+/// m, that the distances of this file may be off by where an edge and a core are nearly parallel.
+inline constexpr float kLaneRounding = 1e-3f;
+
+/// A capsule's core, the same in all lanes, and how far from it a feature is near.
+struct Core {
+  Vec3Lanes a, b, axis;
+  Lanes axis2, inverse;  // m2, 1/m2 or zero
+  float reach2;          // m2
+
+  PLEAT_KERNEL Core(const CapsulePose& c, float reach) : a(all(c.a)), b(all(c.b)), axis(b - a), reach2(reach * reach) {
+    const Vec3 along = c.b - c.a;
+    const float along2 = dot(along, along);
+    axis2 = all(along2), inverse = all(along2 > 0.0f ? 1.0f / along2 : 0.0f);
+  }
+};
+
+PLEAT_KERNEL LaneMask is_near(const Core& core, const Vec3Lanes& position) {
+  const Vec3Lanes p = position - core.a, away = p - core.axis * clamped(dot(p, core.axis) * core.inverse);
+  return dot(away, away) < core.reach2;
+}
+
+struct EdgeLanes {
+  Vec3Lanes start, along;
+
+  EdgeLanes() = default;
+  PLEAT_KERNEL EdgeLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j)
+      : start(gather(position, i)), along(gather(position, j) - start) {}
+};
+
+/// As closest_between_segments, but for what float is off by where the two are nearly parallel.
+PLEAT_KERNEL LaneMask is_near(const Core& core, const EdgeLanes& edge) {
+  const Vec3Lanes w = edge.start - core.a, u = edge.along;
+  const Lanes uu = dot(u, u) + 1e-24f, uv = dot(u, core.axis), uw = dot(u, w), vw = dot(core.axis, w);
+  const Lanes open = abs(uu * core.axis2 - uv * uv) + 1e-24f;
+  const Lanes on_lines = clamped((uv * vw - uw * core.axis2) / open);
+  const Lanes t = clamped((uv * on_lines + vw) * core.inverse), s = clamped((uv * t - uw) / uu);
+  const Vec3Lanes away = w + u * s - core.axis * t;
+  return dot(away, away) < core.reach2;
+}
+
+/// Faces by their planes and, within those, the lines of their sides.
+struct FaceLanes {
+  Vec3Lanes a, b, normal, past_ab, past_bc, past_ca;  // corners, m; unit, the last three out of the face
+
+  FaceLanes() = default;
+  PLEAT_KERNEL FaceLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j, const std::uint32_t* k)
+      : a(gather(position, i)), b(gather(position, j)) {
+    const Vec3Lanes c = gather(position, k);
+    normal = unit(cross(b - a, c - a));
+    past_ab = unit(cross(b - a, normal)), past_bc = unit(cross(c - b, normal)), past_ca = unit(cross(a - c, normal));
+  }
+
+ private:
+  static PLEAT_KERNEL Vec3Lanes unit(const Vec3Lanes& v) { return v * (1.0f / (sqrt(dot(v, v)) + 1e-18f)); }
+};
+
+/// The squares of how far a point is from the plane and, along it, past the sides: a face is no nearer than their sum.
+struct FaceDistance {
+  Lanes height2, beside2;
+
+  PLEAT_KERNEL FaceDistance(const FaceLanes& face, const Vec3Lanes& point) {
+    const Vec3Lanes from_a = point - face.a, from_b = point - face.b;
+    const Lanes height = dot(from_a, face.normal);
+    const Lanes past = max(max(dot(from_a, face.past_ab), dot(from_b, face.past_bc)), dot(from_a, face.past_ca));
+    const Lanes beside = max(past, Lanes{});
+    height2 = height * height, beside2 = beside * beside;
+  }
+};
+
+/// Whether an end of the core may be near.
+PLEAT_KERNEL LaneMask is_near(const Core& core, const FaceLanes& face) {
+  const FaceDistance a(face, core.a), b(face, core.b);
+  return (a.height2 + a.beside2 < core.reach2) | (b.height2 + b.beside2 < core.reach2);
+}
+
+/// Whether an end of the core is, over the inside of the face.
+PLEAT_KERNEL LaneMask is_under(const Core& core, const FaceLanes& face) {
+  constexpr float kBeside2 = kLaneRounding * kLaneRounding;
+  const FaceDistance a(face, core.a), b(face, core.b);
+  return ((a.height2 < core.reach2) & (a.beside2 < kBeside2)) | ((b.height2 < core.reach2) & (b.beside2 < kBeside2));
+}
+
+}  // namespace pleat
