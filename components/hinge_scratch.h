@@ -2,14 +2,14 @@
 #pragma once
 
 #include "components/column.h"
-#include "components/vec3_block.h"
+#include "components/lanes.h"
 
 namespace pleat {
 
 /// Some hinges side by side, between the two passes over all of them.
 struct HingeBlock {
-  Vec3Block gradient[4];                    // of the angle for each of its particles, 1/m; 0: the hinge is passed over
-  float damping[kLanes], softness[kLanes];  // N m; s_h
+  Vec3Lanes gradient[4];    // of the angle for each of its particles, 1/m; 0: the hinge is passed over
+  Lanes damping, softness;  // N m; s_h
 };
 
 /// For as many hinges as one cloth has.

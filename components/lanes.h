@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "components/column.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -72,6 +72,87 @@ inline Lanes gather(const float* from, const std::uint32_t* index) {
 }
 inline Vec3Lanes gather(ConstVec3View from, const std::uint32_t* index) {
   return {gather(from.x, index), gather(from.y, index), gather(from.z, index)};
+}
+
+/// Four lanes of four floats each, beside each other, become four times the same place of all.
+inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
+  const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes low23 = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes high01 = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes high23 = __builtin_shufflevector(pairs[2], pairs[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  places[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+  places[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+  places[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+  places[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+
+inline Four load_four(const Vec4& from) {
+  Four four;
+  std::memcpy(&four, &from, sizeof four);
+  return four;
+}
+
+/// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
+inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Lanes places[4] = {load(from.x + i), load(from.y + i), load(from.z + i), w == nullptr ? Lanes{} : load(w + i)};
+    Lanes pairs[4];
+    transpose(places, pairs);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Four low = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
+      const Four high = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
+      std::memcpy(to + i + k, &low, sizeof low), std::memcpy(to + i + k + 4, &high, sizeof high);
+    }
+  }
+}
+inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    Lanes pairs[4], places[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      pairs[k] = __builtin_shufflevector(load_four(from[i + k]), load_four(from[i + k + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+    transpose(pairs, places);
+    store({places[0], places[1], places[2]}, to, i);
+  }
+}
+
+/// Eight vectors and what each carries besides.
+struct Vec4Lanes {
+  Vec3Lanes vector;
+  Lanes w;
+};
+
+/// from[index[0]], from[index[1]], ...: a load for each, where three columns need three.
+inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
+  Lanes pairs[4], places[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    pairs[k] = __builtin_shufflevector(load_four(from[index[k]]), load_four(from[index[k + 4]]), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  transpose(pairs, places);
+  return {{places[0], places[1], places[2]}, places[3]};
+}
+
+/// to[index[k]] += lane k, one after the other, for the first `count` lanes.
+inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {
+  Lanes pairs[4];
+  const Lanes places[4] = {lanes.x, lanes.y, lanes.z, Lanes{}};
+  transpose(places, pairs);
+  Four lane[kLanes];
+  for (std::size_t k = 0; k < 4; ++k) {
+    lane[k] = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
+    lane[k + 4] = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
+  }
+  const auto add = [&](std::uint32_t k) {
+    const Four sum = load_four(to[index[k]]) + lane[k];
+    std::memcpy(to + index[k], &sum, sizeof sum);
+  };
+  if (count >= kLanes) {
+    for (std::uint32_t k = 0; k < kLanes; ++k) add(k);
+  } else {
+    for (std::uint32_t k = 0; k < count; ++k) add(k);
+  }
 }
 
 /// A bit a lane, the first lane's lowest.

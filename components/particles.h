@@ -33,11 +33,6 @@ struct ParticleColumns {
   }
 };
 
-/// What a pass over edges needs of a particle, for one load and one store: position, m, and inverse mass, 1/kg.
-struct alignas(16) PackedParticle {
-  float x, y, z, inverse_mass;
-};
-
 /// Only where a cloth integrates by Runge-Kutta: the weighted sum of its four slopes.
 struct RungeKuttaColumns {
   Vec3Column start_velocity, position_slope, velocity_slope;

@@ -31,7 +31,7 @@ void limit_stretch(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .position = t.position,
-                        .packed = t.worker.packed_particles.data()},
+                        .packed = t.worker.packed.position.data()},
       t.worker.stats);
 }
 
@@ -93,7 +93,8 @@ constexpr Row kRows[] = {
                              .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
                              .dt = t.dt,
-                             .position = t.position});
+                             .position = t.position,
+                             .packed = t.worker.packed.position.data()});
      }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.

@@ -72,6 +72,7 @@ constexpr Row kRows[] = {
                         .stiffness = t.settings.bend_stiffness,
                         .damping_rate = t.settings.bend_damping,
                         .dt = t.dt,
+                        .packed = &t.worker.packed,
                         .scratch = &t.worker.hinge_scratch,
                         .force = t.force});
      }},
@@ -84,6 +85,7 @@ constexpr Row kRows[] = {
                        .inverse_mass = t.inverse_mass,
                        .rate = t.settings.edge_damping,
                        .dt = t.dt,
+                       .packed = &t.worker.packed,
                        .force = t.force});
      }},
     {Phase::kStage, "gravity",

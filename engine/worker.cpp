@@ -75,7 +75,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
 }  // namespace
 
 void make_room(Worker& worker, [[maybe_unused]] const World& world, const ClothRecord& cloth) {
-  at_least(worker.packed_particles, cloth.garment().particle_count);
+  worker.packed.make_room(cloth.garment().particle_count);
   if (cloth.settings.bend_stiffness > 0.0f || cloth.settings.bend_damping > 0.0f) {
     worker.hinge_scratch.make_room(cloth.garment().hinge_count);
   }

@@ -8,7 +8,7 @@
 #include "components/hinge_scratch.h"
 #include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
-#include "components/particles.h"
+#include "components/vec4.h"
 #include "components/stats.h"
 #include "components/surface.h"
 
@@ -17,7 +17,7 @@ namespace pleat {
 /// Scratch of a tick, sized for the largest cloth when the scene changes, empty until something needs it; and what its
 /// cloths have counted since the tick began.
 struct Worker {
-  Column<PackedParticle> packed_particles;
+  Vec4Columns packed;
   HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
   CapsuleCandidateColumns capsule_candidates;
@@ -37,7 +37,7 @@ struct Worker {
   const std::uint32_t number;  // among the world's
 
   Worker(std::uint32_t k, std::pmr::memory_resource* m)
-      : packed_particles(m),
+      : packed(m),
         hinge_scratch(m),
         capsule_poses(m),
         capsule_candidates(m),

@@ -1,6 +1,7 @@
 #include "systems/capsule_detection.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "systems/capsule_lanes.h"
 #include "systems/contact_row.h"
@@ -28,6 +29,7 @@ struct Batch {
   std::uint32_t feature[kLanes];
   std::uint32_t count = 0;
 
+  std::uint32_t used() const { return (1u << count) - 1; }  // a bit a place
   /// Column `of` of the features; places without one repeat the first.
   void look_up(const Column<std::uint32_t>& of, std::uint32_t (&found)[kLanes]) const {
     for (std::uint32_t k = 0; k < kLanes; ++k) found[k] = of[feature[k < count ? k : 0]];
@@ -65,7 +67,8 @@ struct CapsuleTest {
     float given = 0.0f;
     for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
       const CapsulePose& other = in.capsules[c];
-      if (&other == &capsule) continue;
+      const bool is_behind = dot(normal, p - other.a) >= 0.0f && dot(normal, p - other.b) >= 0.0f;
+      if (is_behind || &other == &capsule) continue;
       const float t = closest_on_capsule(p, other);
       const float needed = radius_at(other, t) + in.thickness + missing;  // from the other's core, for room enough
       if (needed <= 0.0f) continue;
@@ -101,41 +104,49 @@ struct CapsuleTest {
     });
   }
 
-  /// visit(k) for those of a batch that may be within reach: most candidates no longer are.
-  template <class Predicate, class Visitor>
-  void for_each_in_reach(Batch& batch, const Predicate& may_be, const Visitor& visit) const {
-    std::uint64_t marks = 0;
-    run_wide(widest_vectors(), [&] { marks = bits(may_be(Core(capsule, reach + kLaneRounding))); });
-    marks &= (1u << batch.count) - 1;
-    for_each_bit(&marks, &marks + 1, [&](std::uint32_t k) { visit(batch.feature[k]); });
-    batch.count = 0;
-  }
-
   /// test(batch) for all candidates, in order.
   template <class Test>
   void for_each_batch(const std::uint64_t* begin, const std::uint64_t* end, const Test& test) const {
     Batch batch;
     for_each_bit(begin, end, [&](std::uint32_t feature) {
       batch.feature[batch.count++] = feature;
-      if (batch.count == kLanes) test(batch);
+      if (batch.count < kLanes) return;
+      test(batch);
+      batch.count = 0;
     });
     if (batch.count != 0) test(batch);
   }
 
+  /// Where the lanes of a batch come closest, and which may be within reach: most candidates no longer are.
+  struct EdgeBatch {
+    float s[kLanes], t[kLanes];
+    std::uint32_t near, crossing;  // a bit a lane
+  };
+
   void test_edges(Stats& stats) const {
     const auto& end = in.garment->edge_particle;
-    for_each_batch(near + words.edges, near + words.faces, [&](Batch& batch) {
+    for_each_batch(near + words.edges, near + words.faces, [&](const Batch& batch) {
       std::uint32_t i[kLanes], j[kLanes];
       batch.look_up(end[0], i), batch.look_up(end[1], j);
-      for_each_in_reach(
-          batch, [&](const Core& core) { return is_near(core, EdgeLanes(in.position, i, j)); },
-          [&](std::uint32_t e) { test_edge(end[0][e], end[1][e], stats); });
+      EdgeBatch found;
+      run_wide(widest_vectors(), [&] {
+        const Core core(capsule, reach + kLaneRounding);
+        const EdgeDistance distance(core, EdgeLanes(in.position, i, j));
+        store(distance.s, found.s), store(distance.t, found.t);
+        found.near = bits(distance.distance2 < core.reach2) & batch.used();
+        found.crossing = capsule.taper == 0.0f ? bits(distance.crosses) : 0;
+      });
+      for (std::uint32_t rest = found.near; rest != 0; rest &= rest - 1) {
+        const int k = std::countr_zero(rest);
+        const bool known = (found.crossing >> k & 1) != 0;
+        const Vec3 xi = in.position[i[k]], xj = in.position[j[k]];
+        test_edge(i[k], j[k], known ? SegmentPair{found.s[k], found.t[k]} : closest_to_capsule(xi, xj, capsule), stats);
+      }
     });
   }
 
-  void test_edge(std::uint32_t i, std::uint32_t j, Stats& stats) const {
+  void test_edge(std::uint32_t i, std::uint32_t j, const SegmentPair& at, Stats& stats) const {
     const Vec3 xi = in.position[i], xj = in.position[j];
-    const SegmentPair at = closest_to_capsule(xi, xj, capsule);
     if (at.s < kEndShare || at.s > 1.0f - kEndShare) return;
     const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
     if (!(dot(away, away) < reach * reach)) return;
@@ -146,12 +157,17 @@ struct CapsuleTest {
   /// Where an end of the core is over the inside of a face; all other places that are closest belong to its edges.
   void test_faces(Stats& stats) const {
     const auto& corner = in.garment->face_particle;
-    for_each_batch(near + words.faces, near + words.end, [&](Batch& batch) {
+    for_each_batch(near + words.faces, near + words.end, [&](const Batch& batch) {
       std::uint32_t i[kLanes], j[kLanes], k[kLanes];
       batch.look_up(corner[0], i), batch.look_up(corner[1], j), batch.look_up(corner[2], k);
-      for_each_in_reach(
-          batch, [&](const Core& core) { return is_under(core, FaceLanes(in.position, i, j, k)); },
-          [&](std::uint32_t f) { test_face(corner[0][f], corner[1][f], corner[2][f], stats); });
+      std::uint32_t over = 0;
+      run_wide(widest_vectors(), [&] {
+        over = bits(is_under(Core(capsule, reach + kLaneRounding), FaceLanes(in.position, i, j, k))) & batch.used();
+      });
+      for (; over != 0; over &= over - 1) {
+        const int lane = std::countr_zero(over);
+        test_face(i[lane], j[lane], k[lane], stats);
+      }
     });
   }
 

@@ -37,15 +37,26 @@ struct EdgeLanes {
       : start(gather(position, i)), along(gather(position, j) - start) {}
 };
 
-/// As closest_between_segments, but for what float is off by where the two are nearly parallel.
+/// As closest_between_segments, in float: where the two are nearly parallel, off by up to kLaneRounding.
+struct EdgeDistance {
+  Lanes s, t;        // along the edge, along the core
+  Lanes distance2;   // m2
+  LaneMask crosses;  // at an angle of more than 2 degrees: then s and t are good to 1e-4
+
+  PLEAT_KERNEL EdgeDistance(const Core& core, const EdgeLanes& edge) {
+    const Vec3Lanes w = edge.start - core.a, u = edge.along;
+    const Lanes uu = dot(u, u) + 1e-24f, uv = dot(u, core.axis), uw = dot(u, w), vw = dot(core.axis, w);
+    const Lanes open = abs(uu * core.axis2 - uv * uv) + 1e-24f;
+    const Lanes on_lines = clamped((uv * vw - uw * core.axis2) / open);
+    t = clamped((uv * on_lines + vw) * core.inverse), s = clamped((uv * t - uw) / uu);
+    const Vec3Lanes away = w + u * s - core.axis * t;
+    distance2 = dot(away, away);
+    crosses = open > 1e-3f * uu * core.axis2;
+  }
+};
+
 PLEAT_KERNEL LaneMask is_near(const Core& core, const EdgeLanes& edge) {
-  const Vec3Lanes w = edge.start - core.a, u = edge.along;
-  const Lanes uu = dot(u, u) + 1e-24f, uv = dot(u, core.axis), uw = dot(u, w), vw = dot(core.axis, w);
-  const Lanes open = abs(uu * core.axis2 - uv * uv) + 1e-24f;
-  const Lanes on_lines = clamped((uv * vw - uw * core.axis2) / open);
-  const Lanes t = clamped((uv * on_lines + vw) * core.inverse), s = clamped((uv * t - uw) / uu);
-  const Vec3Lanes away = w + u * s - core.axis * t;
-  return dot(away, away) < core.reach2;
+  return EdgeDistance(core, edge).distance2 < core.reach2;
 }
 
 /// Faces by their planes and, within those, the lines of their sides.

@@ -2,27 +2,44 @@
 
 #include <algorithm>
 
+#include "components/lanes.h"
+
 namespace pleat {
+namespace {
+
+/// Reads into the edge columns' padding.
+PLEAT_KERNEL void damp(const Garment& g, float rate, Vec4Columns& packed) {
+  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
+    const std::uint32_t *i = g.edge_particle[0].data() + begin, *j = g.edge_particle[1].data() + begin;
+    const Vec4Lanes xi = gather(packed.position.data(), i), xj = gather(packed.position.data(), j);
+    const Vec4Lanes vi = gather(packed.velocity.data(), i), vj = gather(packed.velocity.data(), j);
+    const Vec3Lanes d = xj.vector - xi.vector;
+    const Lanes length2 = dot(d, d), weight = xi.w + xj.w;
+    const LaneMask damped = (length2 >= 1e-18f) & (weight > 0.0f);
+    const Lanes share = rate * dot(vj.vector - vi.vector, d) / (damped ? weight * length2 : all(1.0f));
+    const Vec3Lanes f = d * (damped ? share : Lanes{});
+    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
+    scatter_add(f, i, count, packed.force.data());
+    scatter_add(-f, j, count, packed.force.data());
+  }
+}
+
+}  // namespace
 
 bool EdgeDamping::validate() const {
   return garment != nullptr && position.x != nullptr && velocity.x != nullptr && inverse_mass != nullptr &&
-         force.x != nullptr && rate >= 0.0f && dt > 0.0f;
+         packed != nullptr && packed->holds(garment->particle_count) && force.x != nullptr && rate >= 0.0f && dt > 0.0f;
 }
 
-void EdgeDamping::run() const {
-  const std::uint32_t* first = garment->edge_particle[0].data();
-  const std::uint32_t* second = garment->edge_particle[1].data();
-  const float safe_rate = std::min(rate, 0.2f / dt);
-  for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
-    const std::uint32_t i = first[e], j = second[e];
-    const Vec3 d = position[j] - position[i];
-    const float length_squared = dot(d, d);
-    const float weight = inverse_mass[i] + inverse_mass[j];
-    if (length_squared < 1e-18f || weight == 0.0f) continue;
-    const Vec3 f = d * (safe_rate * dot(velocity[j] - velocity[i], d) / (weight * length_squared));
-    force.add(i, f);
-    force.add(j, -f);
-  }
+void EdgeDamping::run(VectorSet set) const {
+  run_wide(set, [this] {
+    const std::size_t count = garment->particle_count;
+    pack(position, inverse_mass, count, packed->position.data());
+    pack(velocity, nullptr, count, packed->velocity.data());
+    pack(force, nullptr, count, packed->force.data());
+    damp(*garment, std::min(rate, 0.2f / dt), *packed);
+    unpack(packed->force.data(), count, force);
+  });
 }
 
 }  // namespace pleat

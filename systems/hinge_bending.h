@@ -5,6 +5,7 @@
 
 #include "components/garment.h"
 #include "components/hinge_scratch.h"
+#include "components/vec4.h"
 #include "components/wide.h"
 
 namespace pleat {
@@ -23,6 +24,7 @@ struct HingeBending {
   float stiffness = 0.0f;     // B, N m
   float damping_rate = 0.0f;  // 1/s
   float dt = 0.0f;            // s
+  Vec4Columns* packed = nullptr;
   HingeScratch* scratch = nullptr;
   Vec3View force;
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "components/garment.h"
-#include "components/particles.h"
+#include "components/vec4.h"
 #include "components/stats.h"
 
 namespace pleat {
@@ -21,7 +21,7 @@ struct StretchConstraint {
   const float* inverse_mass = nullptr;
   float limit = 0.0f;  // fraction of the rest length
   Vec3View position;
-  PackedParticle* packed = nullptr;  // (P)
+  Vec4* packed = nullptr;  // (P)
 
   bool validate() const;
   void run(Stats& stats) const;

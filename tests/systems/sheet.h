@@ -10,7 +10,7 @@
 
 #include "components/garment.h"
 #include "components/hinge_scratch.h"
-#include "components/particles.h"
+#include "components/vec4.h"
 #include "components/shapes.h"
 
 namespace pleat {
@@ -21,7 +21,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 struct Sheet {
   Garment garment;
   ParticleColumns particles;
-  std::vector<PackedParticle> packed;
+  std::vector<Vec4> packed;
   HingeScratch hinge_scratch;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;

@@ -1,0 +1,26 @@
+// Vectors of a column with their components beside each other, for what reads and writes them in no order: one load or
+// store each.
+#pragma once
+
+#include "components/column.h"
+
+namespace pleat {
+
+struct alignas(16) Vec4 {
+  float x, y, z, w;
+};
+
+/// Of as many particles as one cloth has: scratch of what works on edges and hinges.
+struct Vec4Columns {
+  Column<Vec4> position, velocity, force;  // m and, w, 1/kg of inverse mass; m/s; N
+
+  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), velocity(m), force(m) {}
+  void make_room(std::size_t particles) {
+    for (Column<Vec4>* c : {&position, &velocity, &force}) {
+      if (c->size() < particles) c->resize(particles);
+    }
+  }
+  bool holds(std::size_t particles) const { return force.size() >= particles; }
+};
+
+}  // namespace pleat
