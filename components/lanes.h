@@ -97,7 +97,8 @@ inline Four load_four(const Vec4& from) {
 /// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
 inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
   for (std::size_t i = 0; i < count; i += kLanes) {
-    const Lanes places[4] = {load(from.x + i), load(from.y + i), load(from.z + i), w == nullptr ? Lanes{} : load(w + i)};
+    const Lanes places[4] = {load(from.x + i), load(from.y + i), load(from.z + i),
+                             w == nullptr ? Lanes{} : load(w + i)};
     Lanes pairs[4];
     transpose(places, pairs);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -128,7 +129,8 @@ struct Vec4Lanes {
 inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
   Lanes pairs[4], places[4];
   for (std::size_t k = 0; k < 4; ++k) {
-    pairs[k] = __builtin_shufflevector(load_four(from[index[k]]), load_four(from[index[k + 4]]), 0, 1, 2, 3, 4, 5, 6, 7);
+    pairs[k] =
+        __builtin_shufflevector(load_four(from[index[k]]), load_four(from[index[k + 4]]), 0, 1, 2, 3, 4, 5, 6, 7);
   }
   transpose(pairs, places);
   return {{places[0], places[1], places[2]}, places[3]};

@@ -14,7 +14,8 @@ namespace pleat {
 ///   x_i += w_i dt^2 F / (1 + (w_i + w_j) dt^2 k l/L),   F = k (l - L)/L (x_j - x_i),   x_j likewise with -F
 /// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law.
-/// Reads:  garment edges; inverse_mass (P) 1/kg.  Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.  Errors: none.
+/// Reads:  garment edges; inverse_mass (P) 1/kg.  Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.
+/// Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;

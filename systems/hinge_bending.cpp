@@ -32,8 +32,8 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
 
   const Vec3Lanes u = e * (1.0f / (has_extent ? e_length : one));
   const Vec3Lanes a = na * (1.0f / (has_extent ? na2 : one)), b = nb * (1.0f / (has_extent ? nb2 : one));
-  const Vec3Lanes gradient[4] = {-(a * dot(x2 - x1, u) + b * dot(x3 - x1, u)), a * dot(x2 - x0, u) + b * dot(x3 - x0, u),
-                                 a * -e_length, b * -e_length};
+  const Vec3Lanes gradient[4] = {-(a * dot(x2 - x1, u) + b * dot(x3 - x1, u)),
+                                 a * dot(x2 - x0, u) + b * dot(x3 - x0, u), a * -e_length, b * -e_length};
   Lanes yielding{}, speed{};
   for (std::size_t k = 0; k < 4; ++k) {
     yielding += x[k].w * dot(gradient[k], gradient[k]);
@@ -82,8 +82,8 @@ PLEAT_KERNEL void bend_all(const HingeBending& in) {
 bool HingeBending::validate() const {
   return garment != nullptr && position.x != nullptr && velocity.x != nullptr && inverse_mass != nullptr &&
          packed != nullptr && packed->holds(garment->particle_count) && scratch != nullptr &&
-         scratch->turn.size() >= garment->hinge_count && force.x != nullptr &&
-         stiffness >= 0.0f && damping_rate >= 0.0f && dt > 0.0f;
+         scratch->turn.size() >= garment->hinge_count && force.x != nullptr && stiffness >= 0.0f &&
+         damping_rate >= 0.0f && dt > 0.0f;
 }
 
 void HingeBending::run(VectorSet set) const {

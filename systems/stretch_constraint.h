@@ -4,8 +4,8 @@
 #pragma once
 
 #include "components/garment.h"
-#include "components/vec4.h"
 #include "components/stats.h"
+#include "components/vec4.h"
 
 namespace pleat {
 

@@ -72,7 +72,7 @@ struct Walk {
                      kThickness,
                      0.5f,
                      kDt,
-                                &cloth.candidates,
+                     &cloth.candidates,
                      cloth.contacts()}
         .run(stats);
     return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};

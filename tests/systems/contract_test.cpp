@@ -61,7 +61,7 @@ void guard(Sheet& s) {
 }
 void stretch(Sheet& s) {
   Stats stats;
-  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, s.position, s.packed.data()}.run(stats);
+  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, s.position, s.packed.position.data()}.run(stats);
 }
 
 const Case kCases[] = {
@@ -70,12 +70,15 @@ const Case kCases[] = {
      {"force"}},
     {"HingeBending",
      [](Sheet& s) {
-       HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1.0f, 4.0f, kDt, &s.hinge_scratch, s.force}
+       HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass,   1.0f,
+                    4.0f,       kDt,        &s.packed,  &s.hinge_scratch, s.force}
            .run();
      },
      {"force"}},
     {"EdgeDamping",
-     [](Sheet& s) { EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, kDt, s.force}.run(); },
+     [](Sheet& s) {
+       EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, kDt, &s.packed, s.force}.run();
+     },
      {"force"}},
     {"Gravity",
      [](Sheet& s) {
@@ -104,7 +107,7 @@ const Case kCases[] = {
      {"position", "velocity"}},
     {"ElasticProjection",
      [](Sheet& s) {
-       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, kDt, s.position}.run();
+       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, kDt, s.position, s.packed.position.data()}.run();
      },
      {"position"}},
     {"ImplicitIntegration",

@@ -14,6 +14,7 @@ EdgeDamping job(Sheet& sheet, float rate, float dt = 1.0f / 60) {
           .inverse_mass = sheet.inverse_mass,
           .rate = rate,
           .dt = dt,
+          .packed = &sheet.packed,
           .force = sheet.force};
 }
 

@@ -11,7 +11,12 @@ namespace {
 constexpr float kDt = 1.0f / 480;
 
 ElasticProjection job(Sheet& s, float stiffness) {
-  return {.garment = &s.garment, .inverse_mass = s.inverse_mass, .law = {stiffness}, .dt = kDt, .position = s.position};
+  return {.garment = &s.garment,
+          .inverse_mass = s.inverse_mass,
+          .law = {stiffness},
+          .dt = kDt,
+          .position = s.position,
+          .packed = s.packed.position.data()};
 }
 Sheet shaken_sheet() {
   static constexpr std::uint32_t kPins[] = {0, 4};

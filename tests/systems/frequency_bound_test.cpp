@@ -22,7 +22,8 @@ void add_springs(Sheet& s, float k) {
   ElasticForce{&s.garment, s.position, s.inverse_mass, {k}, kEndless, s.force}.run();
 }
 void add_hinges(Sheet& s, float b) {
-  HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, b, 0.0f, 1e-6f, &s.hinge_scratch, s.force}.run();
+  HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, b, 0.0f, 1e-6f, &s.packed, &s.hinge_scratch, s.force}
+      .run();
 }
 
 /// The largest eigenvalue of -M^-1 dF/dx at rest, by power iteration on small displacements.

@@ -19,6 +19,7 @@ HingeBending job(Sheet& sheet, float stiffness = kStiffness, float damping_rate 
           .stiffness = stiffness,
           .damping_rate = damping_rate,
           .dt = dt,
+          .packed = &sheet.packed,
           .scratch = &sheet.hinge_scratch,
           .force = sheet.force};
 }

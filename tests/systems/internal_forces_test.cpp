@@ -14,9 +14,13 @@ using Force = void (*)(Sheet&);
 
 void elastic(Sheet& s) { ElasticForce{&s.garment, s.position, s.inverse_mass, {30.0f}, 1e6f, s.force}.run(); }
 void bending(Sheet& s) {
-  HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass, 1e-3f, 4.0f, 1e-3f, &s.hinge_scratch, s.force}.run();
+  HingeBending{&s.garment, s.position, s.velocity, s.inverse_mass,   1e-3f,
+               4.0f,       1e-3f,      &s.packed,  &s.hinge_scratch, s.force}
+      .run();
 }
-void damping(Sheet& s) { EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, 1e-3f, s.force}.run(); }
+void damping(Sheet& s) {
+  EdgeDamping{&s.garment, s.position, s.velocity, s.inverse_mass, 4.0f, 1e-3f, &s.packed, s.force}.run();
+}
 
 /// Turns by the unit quaternion (w, u).
 Vec3 turned(const Vec3& v) {

@@ -10,8 +10,9 @@
 
 #include "components/garment.h"
 #include "components/hinge_scratch.h"
-#include "components/vec4.h"
+#include "components/particles.h"
 #include "components/shapes.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -21,7 +22,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 struct Sheet {
   Garment garment;
   ParticleColumns particles;
-  std::vector<Vec4> packed;
+  Vec4Columns packed;
   HingeScratch hinge_scratch;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;
@@ -31,13 +32,14 @@ struct Sheet {
   explicit Sheet(const Mesh& mesh, std::span<const std::uint32_t> pins = {}, float density = 0.2f)
       : garment(build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource())),
         particles(std::pmr::new_delete_resource()),
-        packed(garment.particle_count),
+        packed(std::pmr::new_delete_resource()),
         hinge_scratch(std::pmr::new_delete_resource()),
         count(garment.particle_count) {
     for (Vec3Column* column :
          {&particles.position, &particles.velocity, &particles.force, &particles.previous, &particles.predicted}) {
       column->resize(count);
     }
+    packed.make_room(count);
     hinge_scratch.make_room(garment.hinge_count);
     particles.inverse_mass.resize(count);
     particles.mass.resize(count);

@@ -12,7 +12,7 @@ StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
           .inverse_mass = sheet.inverse_mass,
           .limit = limit,
           .position = sheet.position,
-          .packed = sheet.packed.data()};
+          .packed = sheet.packed.position.data()};
 }
 
 float worst_strain(const Sheet& sheet) {
