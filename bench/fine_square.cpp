@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bench/bare_springs.h"
 #include "demo/input_error.h"
 #include "demo/program/output.h"
 #include "demo/scenes/scene.h"
@@ -20,7 +21,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "files are read as they lie");
 
 constexpr uint32_t kSides[] = {17, 33, kFineSide};
-constexpr uint32_t kSubsteps = 64;
 constexpr double kSubstep = 0.008;    // s, over the number of edges along a side: what the springs bear
 constexpr double kFirstBulge = 0.01;  // m, so that a flat start has a side to give way to
 
@@ -28,19 +28,10 @@ pleat_cloth_settings fine_settings(const pleat_api& api) {
   pleat_cloth_def def;
   api.cloth_def_init(&def, sizeof def);
   pleat_cloth_settings& s = def.settings;
-  s.substeps = kSubsteps;
-  s.sweeps = 1;
-  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
-  s.stiffness = 300.0f;
-  s.buckling_strain = 1.0f;
-  s.stretch_limit = 1.0f;
+  use_bare_springs(s, 300.0f, kMostSubsteps);
+  damp_to_rest(s);
   s.bend_stiffness = 2e-5f;
-  s.edge_damping = 40.0f;
-  s.bend_damping = 40.0f;
   s.air_damping = 3.0f;
-  s.inner_friction = 0.0f;
-  s.surface = PLEAT_SURFACE_FLAT;
-  s.level = 1;
   return s;
 }
 
@@ -99,7 +90,7 @@ FineSolution relaxed(const pleat_api& api, const FineSquare& square, uint32_t n,
                      const std::function<void()>& step) {
   demo::SceneDef def;
   def.name = square.name;
-  def.rate = (n - 1) / (kSubsteps * kSubstep);
+  def.rate = (n - 1) / (kMostSubsteps * kSubstep);
   def.garment = flat_square(api, n);
   def.pins = {0, n - 1};
   def.settings = fine_settings(api);
@@ -114,11 +105,7 @@ FineSolution relaxed(const pleat_api& api, const FineSquare& square, uint32_t n,
     step();
   }
   scene.read_particles(0, after);
-  double motion = 0.0;
-  for (size_t i = 0; i < after.size(); i += 3) {
-    motion = std::max(
-        motion, double(std::hypot(after[i] - before[i], after[i + 1] - before[i + 1], after[i + 2] - before[i + 2])));
-  }
+  const double motion = largest_motion(before, after);
   return {std::move(after), motion};
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bench/bare_springs.h"
+
 namespace pleat::bench {
 namespace {
 
@@ -21,12 +23,12 @@ Drawing pleat_as(const std::string& method, uint32_t level = PLEAT_LEVEL_FAN) {
 }
 
 /// Springs of the reference both ways, no strain limit.
-Dynamics stiff(Grid grid, pleat_cloth_settings settings, uint32_t integrator, const std::string& name) {
-  settings.integrator = integrator;
+Dynamics implicit_springs(Grid grid, pleat_cloth_settings settings) {
+  settings.integrator = PLEAT_INTEGRATOR_IMPLICIT_EULER;
   settings.stiffness = kSpring;
   settings.buckling_strain = 1.0f;
   settings.stretch_limit = 1.0f;
-  return {name, grid, settings, std::nullopt};
+  return {"implicit", grid, settings, std::nullopt};
 }
 
 void add(std::vector<Contestants>& all, const Dynamics& dynamics, const std::vector<Drawing>& drawings) {
@@ -66,12 +68,10 @@ void add_peers(std::vector<Contestants>& all, const RestScene& scene, Grid grid,
 
 Dynamics explicit_springs(const pleat_api& api, const RestScene& scene, Grid grid,
                           const pleat_cloth_settings& settings) {
-  Dynamics d = stiff(grid, settings, PLEAT_INTEGRATOR_SYMPLECTIC_EULER, "explicit springs");
   const auto substeps = uint32_t(std::ceil(kFrame / stable_substep(api, scene, grid)));
-  d.ticks = (substeps + 63) / 64;
-  d.settings.substeps = (substeps + d.ticks - 1) / d.ticks;
-  d.settings.sweeps = 1;
-  d.settings.inner_friction = 0.0f;
+  const uint32_t ticks = (substeps + kMostSubsteps - 1) / kMostSubsteps;
+  Dynamics d{"explicit springs", grid, settings, std::nullopt, ticks};
+  use_bare_springs(d.settings, kSpring, (substeps + ticks - 1) / ticks);
   return d;
 }
 
@@ -96,7 +96,7 @@ std::vector<Contestants> contestants(const pleat_api& api, const RestScene& scen
       soft.stiffness = 30.0f;
       soft.buckling_strain = 1.0f;
       add(all, {"soft springs, 30 N/m", grid, soft, {}}, {pleat_as("pleat, soft springs")});
-      add(all, stiff(grid, settings, PLEAT_INTEGRATOR_IMPLICIT_EULER, "implicit"), {pleat_as("pleat, implicit")});
+      add(all, implicit_springs(grid, settings), {pleat_as("pleat, implicit")});
     }
     add(all, explicit_springs(api, scene, grid, settings), {pleat_as("pleat, explicit springs"), kFlatSprings});
     add_peers(all, scene, grid, settings, quick);

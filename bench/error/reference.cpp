@@ -1,10 +1,10 @@
 #include "bench/error/reference.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "bench/bare_springs.h"
 #include "bench/fine_square.h"
 #include "bench/metrics/surface_distance.h"
 #include "demo/scenes/scene.h"
@@ -12,7 +12,6 @@
 namespace pleat::bench {
 namespace {
 
-constexpr uint32_t kSubsteps = 64;
 constexpr Grid kKept = {kFineSide, kFineSide};
 
 /// A grid, and how long it comes to rest.
@@ -35,17 +34,8 @@ std::vector<Level> levels(const RestScene& scene) {
 
 pleat_cloth_settings fine_settings(const pleat_api& api, const RestScene& scene) {
   pleat_cloth_settings s = rest_settings(api, scene);
-  s.substeps = kSubsteps;
-  s.sweeps = 1;
-  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
-  s.stiffness = kSpring;
-  s.buckling_strain = 1.0f;
-  s.stretch_limit = 1.0f;
-  s.edge_damping = 40.0f;
-  s.bend_damping = 40.0f;
-  s.inner_friction = 0.0f;
-  s.surface = PLEAT_SURFACE_FLAT;
-  s.level = 1;
+  use_bare_springs(s, kSpring, kMostSubsteps);
+  damp_to_rest(s);
   return s;
 }
 
@@ -56,7 +46,8 @@ struct Rest {
 
 Rest relaxed(const pleat_api& api, const RestScene& scene, const Level& level, double substep,
              const std::vector<float>& start, const std::function<void(double share)>& progress) {
-  demo::Scene run(api, rest_scene_def(api, scene, level.grid, fine_settings(api, scene), 1.0 / (kSubsteps * substep)));
+  demo::Scene run(api,
+                  rest_scene_def(api, scene, level.grid, fine_settings(api, scene), 1.0 / (kMostSubsteps * substep)));
   run.check(api.cloth_write_particles(run.world(), run.cloths()[0], start.data(), nullptr, level.grid.particles()),
             "start");
   const auto ticks = uint32_t(level.seconds * run.def().rate), quarter = uint32_t(0.25 * run.def().rate);
@@ -72,11 +63,7 @@ Rest relaxed(const pleat_api& api, const RestScene& scene, const Level& level, d
   run.check(api.world_stats(run.world(), &stats), "stats");
   if (stats.stiffness_lowered > 0) throw std::runtime_error(run.def().name + ": the reference's steps are too long");
   run.read_particles(0, rest.positions);
-  for (size_t i = 0; i < before.size(); i += 3) {
-    const float* from = &before[i];
-    const float* to = &rest.positions[i];
-    rest.motion = std::max(rest.motion, double(std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2])));
-  }
+  rest.motion = largest_motion(before, rest.positions);
   return rest;
 }
 
