@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/error/dominant.h"
+#include "bench/error/ensemble.h"
 #include "bench/error/scoreboard.h"
 #include "bench/fine_square.h"
 #include "bench/machine.h"
@@ -98,21 +99,50 @@ nlohmann::ordered_json blame(const pleat_api& api, const std::vector<Arena>& all
   return figures;
 }
 
+/// Solves the ensembles' references anew.
+void regenerate_ensembles(const pleat_api& api, const std::filesystem::path& folder) {
+  demo::Progress progress("solving, start", uint32_t(2 * kMembers * ensemble_scenes().size()));
+  for (const EnsembleScene& scene : ensemble_scenes()) {
+    write_ensemble(folder, scene, solve_ensemble(api, scene, [&] { progress.step(); }));
+  }
+}
+
+nlohmann::ordered_json of_many_starts(const pleat_api& api, const std::filesystem::path& folder, bool quick) {
+  std::vector<EnsembleReference> references;
+  for (const EnsembleScene& scene : ensemble_scenes()) references.push_back(read_ensemble(folder, scene));
+  std::vector<EnsembleScores> all;
+  {
+    demo::Progress progress("from many starts, start", uint32_t(ensemble_scenes().size()) * ensemble_steps(quick));
+    for (size_t i = 0; i < references.size(); ++i) {
+      all.push_back(score_ensemble(api, ensemble_scenes()[i], references[i], quick, [&] { progress.step(); }));
+    }
+  }
+  print_ensembles(all);
+  return ensembles_json(all);
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app(
       "How far from the truth cloth comes to rest, for what a frame costs: on scenes that come to rest in one way "
       "only,\n"
       "our surfaces, integrators and densities, the same drawn flat and finer, and Bullet's soft body, in turn.",
       "error_vs_time");
-  bool quick = false, again = false, dominant = false;
+  bool quick = false, again = false, dominant = false, ensembles = false;
   std::vector<std::string> words, known, changes;
   for (const RestScene& scene : rest_scenes()) known.emplace_back(scene.name);
   std::filesystem::path folder = PLEAT_FINE_DIR, json_path, svg_path;
-  app.add_flag("--quick", quick, "three densities and fewer methods");
+  app.add_flag("--quick", quick, "two densities and fewer methods");
   app.add_option("--scene", words, "only this one; may be repeated")->type_name("NAME")->check(CLI::IsMember(known));
   auto* dominant_flag =
       app.add_flag("--dominant", dominant, "instead, where pleat's error comes from: one part at a time made perfect");
-  app.add_option("--svg", svg_path, "draw the curves")->type_name("FILE")->excludes(dominant_flag);
+  auto* ensembles_flag = app.add_flag("--ensembles", ensembles,
+                                      "instead, cloth that buckles or moves, of which only what is common to many "
+                                      "starts can be compared")
+                             ->excludes(dominant_flag);
+  app.add_option("--svg", svg_path, "draw the curves")
+      ->type_name("FILE")
+      ->excludes(dominant_flag)
+      ->excludes(ensembles_flag);
   app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
   app.add_option("--set", changes, "a setting of our cloths, see `pleat list`")->type_name("KEY=VALUE");
   app.add_option("--fine", folder, "where the references are")->type_name("DIR")->capture_default_str();
@@ -129,14 +159,20 @@ int run_program(int argc, char** argv) {
     if (words.empty() || std::ranges::find(words, scene.name) != words.end()) scenes.push_back(&scene);
   }
   if (again) {
-    regenerate(api, folder, scenes);
+    ensembles ? regenerate_ensembles(api, folder) : regenerate(api, folder, scenes);
     return 0;
   }
   std::optional<demo::OutputFile> json, svg;
   if (!json_path.empty()) json.emplace(json_path);
   if (!svg_path.empty()) svg.emplace(svg_path);
-  const std::vector<Arena> all = arenas(api, folder, scenes, changes);
   nlohmann::ordered_json figures = {{"quick", quick}, {"set", changes}};
+  if (ensembles) {
+    figures["ensembles"] = of_many_starts(api, folder, quick);
+    figures["machine"] = describe_machine(api);
+    if (json) json->commit(figures.dump(2) + "\n");
+    return 0;
+  }
+  const std::vector<Arena> all = arenas(api, folder, scenes, changes);
   if (dominant) {
     figures["dominant"] = blame(api, all, quick);
   } else {

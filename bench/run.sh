@@ -33,6 +33,7 @@ jobs=(
   'drape 40 10 frame_budget --scene drape_sphere:16 --rate 60 --peer bullet'
   "error_vs_time 400 20 error_vs_time --svg $results/error_vs_time.svg"
   'dominant 200 8 error_vs_time --dominant'
+  'ensembles 60 8 error_vs_time --ensembles'
   'surface_error 3 3 surface_error'
   "stability_map 400 15 stability_map --svg $results/stability_map.svg"
   'validate 120 1 validate'
@@ -64,9 +65,12 @@ for job in "${jobs[@]}"; do
 done
 
 failed=0
+spent=0 # of the seconds expected
+readonly begin=$SECONDS
 for job in "${jobs[@]}"; do
   read -r name full brief _ <<<"$job"
-  printf '%-16s about %d s left\n' "$name" "$left"
+  # From the pace so far, once there is one.
+  printf '%-16s about %d s left\n' "$name" "$((spent > 10 ? left * (SECONDS - begin) / spent : left))"
   statuses[$name]=0
   # shellcheck disable=SC2086
   ${commands[$name]} >"$results/$name.txt" || statuses[$name]=$?
@@ -76,7 +80,7 @@ for job in "${jobs[@]}"; do
   fi
   ((statuses[$name] == 77)) && statuses[$name]=0 # skipped, and it says why
   ((statuses[$name])) && failed=1
-  left=$((left - (quick ? brief : full)))
+  left=$((left - (quick ? brief : full))) spent=$((spent + (quick ? brief : full)))
 done
 
 # The first number behind a name in what frame_budget printed of us, or of its peer.
@@ -128,9 +132,14 @@ scale=''
   printf -- '- error against run time: %s\n' "$(tail -n 1 "$results/error_vs_time.txt")"
 
   section error_vs_time 'Error against run time' \
-    'How far from the truth cloth comes to rest, for what a frame costs, and how long others take to come as close.' \
+    'How far from the truth cloth comes to rest, for what a frame costs, and how long others take to come as close. A ratio
+below its bar means that the same error is cheaper elsewhere: all surfaces over the same particles are about as far from the
+truth, for the particles themselves are, so that a flat surface, or another solver of bare particles, gets there sooner. The
+next section says which part of the simulation puts them there.' \
     '/^time to/,$p'
   section dominant 'Where the error comes from' 'RMS distance from the truth, mm, with one part at a time made perfect.'
+  section ensembles 'Cloth that buckles or moves' \
+    'Where a cloth may end up in several ways, only what is common to many starts can be compared with the truth.'
   section ablation 'What each part is worth' \
     'Microseconds a frame saved where a part is left out, and what that adds to the faults of the cloth. Parts marked +
 are put in first. Where cloth may fold in several ways chance moves it too: read distances beside those of the first row.'

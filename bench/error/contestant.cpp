@@ -40,6 +40,7 @@ void Contestant::draw_as(const Drawing& drawing) {
   settings.fold_sweeps = drawing.fold_sweeps;
   ours_->check(ours_->api().cloth_set(ours_->world(), cloth, &settings), "surface");
   drawn_ = demo::make_surface(*ours_, 0);
+  demo::read_vertices(*ours_, 0, drawn_);
 }
 
 void Contestant::run_frame() {

@@ -37,7 +37,7 @@ class Contestant {
   /// Its particles are where the scene starts.
   Contestant(const pleat_api& api, const RestScene& scene, const Dynamics& dynamics);
 
-  /// From the next frame on.
+  /// At once and from now on.
   void draw_as(const Drawing& drawing);
   /// Ours only: every particle to its place, (P,3) m, at rest, and drawn there.
   void place(std::span<const float> positions);

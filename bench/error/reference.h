@@ -18,7 +18,8 @@ struct Reference {
 
 /// Solved by the library itself: springs of 1000 N/m both ways, no strain limit, no inner friction, steps that are
 /// short enough for any integrator, drawn to rest by damping; on ever finer grids up to the scene's, each starting from
-/// the one before. Both ways of halving, the mesh and the step, are in `ReferenceSolution`.
+/// the one before. Both ways of halving, the mesh and the step, are in
+/// `ReferenceSolution`.
 struct ReferenceSolution {
   Reference reference;
   double motion;    ///< m, the farthest that a particle of the finest grid went in the last quarter second

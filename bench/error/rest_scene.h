@@ -17,6 +17,7 @@ namespace pleat::bench {
 /// Particles along v (rows) and along u (columns) of a rectangle of cloth.
 struct Grid {
   uint32_t rows, columns;
+  bool one_way = false;  ///< all diagonals; else they alternate
   uint32_t particles() const { return rows * columns; }
 };
 
