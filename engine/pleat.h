@@ -98,7 +98,8 @@ typedef struct pleat_world_def {
   float wind[3];              /* m/s, velocity of the air; default 0. Acts on cloths with drag_coefficient > 0 */
   float air_density;          /* kg/m3; default 1.225 */
   float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/480 */
-  pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up */
+  pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up.
+                                 Only the matrices of PLEAT_INTEGRATOR_IMPLICIT_EULER are Eigen's and go past it */
   pleat_free_fn free;
   void* memory_user;
   pleat_log_fn log; /* null (default): warnings and errors go to stderr */

@@ -24,7 +24,7 @@ class Factor : public Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::Natural
   /// Solves in place.
   void apply_to(Eigen::VectorXd& b) const {
     matrixL().solveInPlace(b);
-    b.array() /= vectorD().array();
+    b.array() /= m_diag.array();  // vectorD() is a copy
     matrixU().solveInPlace(b);
   }
 };

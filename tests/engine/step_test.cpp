@@ -110,6 +110,22 @@ TEST(Step, AllocatesNothingAfterWarmUp) {
 #endif
 }
 
+TEST(Step, ImplicitEulerTakesNothingFromTheHeapAfterWarmUp) {
+  if (!heap_calls()) GTEST_SKIP() << "malloc is a sanitizer's, or not glibc's";
+  Scene scene;
+  pleat_cloth_settings s = Scene::default_settings();
+  s.integrator = PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  s.stiffness = 1e4f;
+  const std::uint64_t before = *heap_calls();
+  scene.cloth(scene.sheet(24), s);
+  EXPECT_GT(*heap_calls(), before);  // Eigen's matrix and factor
+  scene.step(2);
+  const std::uint64_t made = *heap_calls(), created = global_allocations();
+  scene.step(60);
+  EXPECT_EQ(*heap_calls(), made);
+  EXPECT_EQ(global_allocations(), created);
+}
+
 TEST(Step, TwoWorldsGiveTheSameBits) {
   Messy a, b;
   for (int i = 0; i < 60; ++i) {
