@@ -117,6 +117,18 @@ void capsule_appears(EventStage& stage) {
   stage.add_capsule({-0.3f, 1.5f, stage.pins[2]}, {0.3f, 1.5f, stage.pins[2]}, 0.15f);
 }
 
+/// A body beside the cloth is elsewhere in the next tick: `way` m across it, from one side to the other or, where `into`,
+/// to where the cloth is.
+auto capsule_jumps(float way, bool into) {
+  return [way, into](EventStage& stage) {
+    const float from = into ? stage.pins[2] - way : stage.pins[2] - 0.5f * way;
+    const pleat_collider capsule = stage.add_capsule({-0.6f, 1.5f, from}, {0.6f, 1.5f, from}, 0.15f);
+    stage.run(2.0);
+    const float to = from + way, a[] = {-0.6f, 1.5f, to}, b[] = {0.6f, 1.5f, to};
+    stage.rig.need(stage.api.collider_move_capsule(stage.rig.world(), capsule, a, b), "capsule");
+  };
+}
+
 /// The same with a body next to the cloth.
 Happen with_capsule(const Happen& happen) {
   return [happen](EventStage& stage) {
@@ -197,6 +209,11 @@ std::vector<Event> events(long rest_ticks) {
       {"stiffness_by_1e6", [](RigDef& def) { def.settings.stiffness = 3e7f; }, scale_stiffness(1e-6f)},
       {"dt_alternates", nullptr, alternate_ticks},
       {"capsule_appears", nullptr, capsule_appears},
+      {"capsule_jumps_1_m_past", nullptr, capsule_jumps(1.0f, false)},
+      {"capsule_jumps_10_m_past", nullptr, capsule_jumps(10.0f, false)},
+      {"capsule_jumps_1000_m_past", nullptr, capsule_jumps(1000.0f, false)},
+      {"capsule_jumps_10_m_into_it", nullptr, capsule_jumps(10.0f, true)},
+      {"capsule_jumps_1000_m_into_it", nullptr, capsule_jumps(1000.0f, true)},
       {"far_from_origin", far_away, nullptr},
   };
   if (rest_ticks > 0) {
