@@ -160,25 +160,25 @@ double median_ratio(const std::vector<std::vector<double>>& ours, const std::vec
 
 std::string stage_group(const std::string& system) {
   static const std::map<std::string, std::string> kGroups = {
-      {"elastic_force", "forces"},        {"hinge_bending", "forces"},
-      {"elastic_projection", "forces"},   {"implicit_integration", "integration"},
-      {"edge_damping", "forces"},         {"gravity", "forces"},
-      {"air_damping", "forces"},          {"air_drag", "forces"},
-      {"inner_friction", "forces"},       {"tether_constraint", "stretch"},
-      {"pin_motion", "integration"},      {"euler_integration", "integration"},
-      {"finite_guard", "integration"},    {"runge_kutta_integration", "integration"},
-      {"velocity_update", "integration"}, {"stretch_constraint", "stretch"},
-      {"collider_motion", "collision"},   {"capsule_detection", "collision"},
-      {"self_candidates", "self"},        {"self_detection", "self"},
-      {"layer_candidates", "layers"},     {"layer_detection", "layers"},
-      {"mesh_detection", "collision"},    {"collision_response", "collision"},
-      {"contact_friction", "collision"},  {"contact_acceleration", "collision"},
-      {"contact_velocity", "collision"},  {"collision_last_word", "collision"},
-      {"surface_footprint", "clearance"}, {"surface_capsules", "clearance"},
-      {"surface_clearance", "clearance"}, {"particle_normals", "normals"},
-      {"mesh_candidates", "collision"},   {"mesh_clearance", "clearance"},
-      {"fold_sides", "edge_length"},      {"stretch_after_friction", "stretch"},
-      {"capsule_candidates", "collision"}};
+      {"elastic_force", "forces"},         {"hinge_bending", "forces"},
+      {"elastic_projection", "forces"},    {"implicit_integration", "integration"},
+      {"edge_damping", "forces"},          {"gravity", "forces"},
+      {"air_damping", "forces"},           {"air_drag", "forces"},
+      {"inner_friction", "forces"},        {"tether_constraint", "stretch"},
+      {"pin_motion", "integration"},       {"euler_integration", "integration"},
+      {"finite_guard", "integration"},     {"runge_kutta_integration", "integration"},
+      {"velocity_update", "integration"},  {"stretch_constraint", "stretch"},
+      {"collider_motion", "collision"},    {"capsule_detection", "collision"},
+      {"self_candidates", "self"},         {"self_detection", "self"},
+      {"layer_candidates", "layers"},      {"layer_detection", "layers"},
+      {"mesh_detection", "collision"},     {"collision_response", "collision"},
+      {"contact_friction", "collision"},   {"contact_acceleration", "collision"},
+      {"contact_velocity", "collision"},   {"collision_last_word", "collision"},
+      {"surface_footprint", "clearance"},  {"surface_capsules", "clearance"},
+      {"surface_clearance", "clearance"},  {"particle_normals", "normals"},
+      {"mesh_candidates", "collision"},    {"mesh_clearance", "clearance"},
+      {"fold_sides", "edge_length"},       {"stretch_after_friction", "stretch"},
+      {"capsule_candidates", "collision"}, {"rounding_hold", "integration"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

@@ -4,6 +4,7 @@
 #include "systems/elastic_projection.h"
 #include "systems/energy_check.h"
 #include "systems/finite_guard.h"
+#include "systems/rounding_hold.h"
 #include "systems/stretch_constraint.h"
 #include "systems/tether_constraint.h"
 #include "systems/velocity_update.h"
@@ -286,6 +287,18 @@ constexpr Row kRows[] = {
                        .velocity = t.velocity},
            t.worker.stats);
        t.trouble = t.trouble || t.worker.stats.nonfinite_restored != before;
+     }},
+    {Phase::kSubstepEnd, "rounding_hold",
+     [](const World&, const ClothRecord& c) {
+       return c.settings.inner_friction > 0.0f ? kNeeded : "inner_friction is 0";
+     },
+     [](ClothTick& t) {
+       run(RoundingHold{.particle_count = t.garment.particle_count,
+                        .previous = t.previous,
+                        .position = t.position,
+                        .velocity = t.velocity,
+                        .dt = t.dt,
+                        .held = t.world.held.view().from(t.cloth.particle_begin)});
      }},
     {Phase::kCheck, "energy_check", always, check_energy},
     {Phase::kCheck, "sleep",

@@ -43,7 +43,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
   for (const char* name :
        {"pin_motion", "elastic_projection", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
-        "euler_integration", "stretch_constraint", "velocity_update", "finite_guard"}) {
+        "euler_integration", "stretch_constraint", "velocity_update", "finite_guard", "rounding_hold"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
   EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: edges are projected"));
@@ -62,6 +62,7 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edge_damping is 0"));
   EXPECT_TRUE(scene.explain("air_damping").ends_with("left out: air_damping is 0"));
   EXPECT_TRUE(scene.explain("inner_friction").ends_with("left out: inner_friction is 0"));
+  EXPECT_TRUE(scene.explain("rounding_hold").ends_with("left out: inner_friction is 0"));
   EXPECT_TRUE(scene.explain("stretch_constraint").ends_with("left out: stretch_limit is 1 or more"));
   EXPECT_TRUE(runs(scene.explain("air_drag")));
 #ifdef PLEAT_WITH_SMOOTHING

@@ -165,6 +165,16 @@ TEST(Step, ClothHangsFromItsPinsAtItsLength) {
   EXPECT_LT(fastest, 0.05f);
 }
 
+TEST(Step, SlowClothAtRestDoesNotWanderOff) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(16));
+  scene.step(3600);
+  const std::vector<float> start = scene.particles(cloth);
+  scene.step(2000);
+  const std::vector<float> end = scene.particles(cloth);
+  for (std::size_t i = 0; i < 3 * 256; ++i) EXPECT_NEAR(end[i], start[i], 2e-6f) << i;
+}
+
 TEST(Step, FreeClothFallsByTheDiscreteLaw) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();

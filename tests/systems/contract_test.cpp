@@ -18,6 +18,7 @@
 #include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
+#include "systems/rounding_hold.h"
 #include "systems/stretch_constraint.h"
 #include "systems/velocity_update.h"
 #include "tests/systems/sheet.h"
@@ -91,6 +92,9 @@ const Case kCases[] = {
        InnerFriction{&s.garment, s.mass, s.velocity, 1.0f, kDt, kDt, held_column().view(), s.force}.run();
      },
      {"force"}},
+    {"RoundingHold",
+     [](Sheet& s) { RoundingHold{s.count, s.previous, s.position, s.velocity, kDt, held_column().view()}.run(); },
+     {}},
     {"AirDrag",
      [](Sheet& s) {
        AirDrag{&s.garment, s.position, s.velocity, {1, 2, 3}, 1.2f, 1.0f, 0.5f, 0.2f, kDt, s.force}.run();

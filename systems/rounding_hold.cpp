@@ -1,0 +1,32 @@
+#include "systems/rounding_hold.h"
+
+#include <cmath>
+
+namespace pleat {
+namespace {
+
+constexpr float kRounding = 0x1p-22f;  // 2 ulp, at most
+
+PLEAT_KERNEL void hold_axis(std::size_t count, float dt, const float* x0, const float* x, const float* v, float* held) {
+  const float w = 0.25f / dt, w2 = w * w;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float lost = (x[i] - x0[i]) - v[i] * dt;
+    held[i] += std::abs(lost) <= kRounding * std::abs(x[i]) ? w2 * lost : 0.0f;
+  }
+}
+
+}  // namespace
+
+bool RoundingHold::validate() const {
+  return previous.x != nullptr && position.x != nullptr && velocity.x != nullptr && dt > 0.0f && held.x != nullptr;
+}
+
+void RoundingHold::run(VectorSet set) const {
+  run_wide(set, [this] {
+    hold_axis(particle_count, dt, previous.x, position.x, velocity.x, held.x);
+    hold_axis(particle_count, dt, previous.y, position.y, velocity.y, held.y);
+    hold_axis(particle_count, dt, previous.z, position.z, velocity.z, held.z);
+  });
+}
+
+}  // namespace pleat
