@@ -5,13 +5,15 @@
 namespace pleat {
 namespace {
 
-constexpr float kRounding = 0x1p-22f;  // 2 ulp, at most
+constexpr float kRounding = 0x1p-22f;  // of a position: 2 ulp, at most
+constexpr float kStill = 0x1p-20f;     // likewise, a substep's way: .5 mm/s at 1 m
 
 PLEAT_KERNEL void hold_axis(std::size_t count, float dt, const float* x0, const float* x, const float* v, float* held) {
   const float w = 0.25f / dt, w2 = w * w;
   for (std::size_t i = 0; i < count; ++i) {
-    const float lost = (x[i] - x0[i]) - v[i] * dt;
-    held[i] += std::abs(lost) <= kRounding * std::abs(x[i]) ? w2 * lost : 0.0f;
+    const float step = v[i] * dt, lost = (x[i] - x0[i]) - step, size = std::abs(x[i]);
+    const bool rounded = std::abs(lost) <= kRounding * size, rests = std::abs(step) <= kStill * size;
+    held[i] += rounded && rests ? w2 * lost : 0.0f;
   }
 }
 

@@ -78,13 +78,15 @@ TEST(RoundingHoldProperty, TheSpringKnowsTheWayOfAParticleThatWanders) {
 }
 
 TEST(RoundingHold, WhatIsMoreThanRoundingStaysOut) {
-  State s(3);
+  State s(4);
   s.position.view().set(0, {1.0f + 1e-5f, 0.0f, 0.0f}), s.previous.view().set(0, {1.0f, 0.0f, 0.0f});  // a push
   s.position.view().set(1, {kNan, 0.0f, 0.0f});
   s.position.view().set(2, {1.0f, 0.0f, 0.0f}), s.previous.view().set(2, {1.0f, 0.0f, 0.0f});
   s.velocity.view().set(2, {kInfinity, 0.0f, 0.0f});
+  s.velocity.view().set(3, {1.0f, 0.0f, 0.0f});  // moves, and is rounded
+  s.position.view().set(3, {1.0f + 1.0f / 480, 0.0f, 0.0f}), s.previous.view().set(3, {1.0f, 0.0f, 0.0f});
   s.job().run();
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(s.held.view()[i], Vec3{});
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(s.held.view()[i], Vec3{});
 }
 
 }  // namespace
