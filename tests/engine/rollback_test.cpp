@@ -87,5 +87,25 @@ TEST(Rollback, WhereNothingHelpsTheClothStaysWithItsPins) {
             1);
 }
 
+TEST(Rollback, ATickThatBreaksCostsNoMoreThanThreeLongOnes) {
+  Scene scene;
+  pleat_cloth_settings s = bare();
+  s.integrator = PLEAT_INTEGRATOR_EXPLICIT_EULER;
+  s.stiffness = 1e5f;
+  for (const std::uint32_t substeps : {1u, 16u, 32u, 33u, 64u}) {
+    s.substeps = substeps;
+    const pleat_cloth cloth = scene.cloth(scene.sheet(8), s);
+    std::uint32_t most = 0;
+    for (int i = 0; i < 20; ++i) {
+      scene.step(1, 1.0f / 30);
+      pleat_cloth_info info{};
+      must(call::cloth_info(scene, cloth, &info));
+      most = std::max(most, info.substeps);
+    }
+    EXPECT_EQ(most, substeps > 32 ? 2 * substeps : 4 * substeps);
+    must(call::cloth_destroy(scene, cloth));
+  }
+}
+
 }  // namespace
 }  // namespace pleat
