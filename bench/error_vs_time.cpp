@@ -107,14 +107,18 @@ void regenerate_ensembles(const pleat_api& api, const std::filesystem::path& fol
   }
 }
 
-nlohmann::ordered_json of_many_starts(const pleat_api& api, const std::filesystem::path& folder, bool quick) {
+nlohmann::ordered_json of_many_starts(const pleat_api& api, const std::filesystem::path& folder,
+                                      const std::vector<std::string>& changes, bool quick) {
   std::vector<EnsembleReference> references;
   for (const EnsembleScene& scene : ensemble_scenes()) references.push_back(read_ensemble(folder, scene));
   std::vector<EnsembleScores> all;
   {
     demo::Progress progress("from many starts, start", uint32_t(ensemble_scenes().size()) * ensemble_steps(quick));
     for (size_t i = 0; i < references.size(); ++i) {
-      all.push_back(score_ensemble(api, ensemble_scenes()[i], references[i], quick, [&] { progress.step(); }));
+      pleat_cloth_settings settings = ensemble_settings(api, ensemble_scenes()[i]);
+      for (const std::string& change : changes) demo::apply_option(change, settings);
+      all.push_back(
+          score_ensemble(api, ensemble_scenes()[i], settings, references[i], quick, [&] { progress.step(); }));
     }
   }
   print_ensembles(all);
@@ -167,7 +171,7 @@ int run_program(int argc, char** argv) {
   if (!svg_path.empty()) svg.emplace(svg_path);
   nlohmann::ordered_json figures = {{"quick", quick}, {"set", changes}};
   if (ensembles) {
-    figures["ensembles"] = of_many_starts(api, folder, quick);
+    figures["ensembles"] = of_many_starts(api, folder, changes, quick);
     figures["machine"] = describe_machine(api);
     if (json) json->commit(figures.dump(2) + "\n");
     return 0;

@@ -17,7 +17,7 @@ struct Score {
   std::string method, dynamics;
   Grid grid;
   size_t drawn_triangles;
-  double ms;  ///< a frame of 1/60 s at rest, median
+  double ms;  ///< a frame of 1/60 s at rest, median, of the processor's time
   SurfaceDistance error;
   double silhouette_overlap, area_error_percent;
   LengthError edges;         ///< of the particles, against rest

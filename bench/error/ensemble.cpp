@@ -57,12 +57,6 @@ const EnsembleScene kScenes[] = {
      0.1f,
      false}};
 
-pleat_cloth_settings settings_of(const pleat_api& api, const EnsembleScene& scene) {
-  pleat_cloth_settings settings = rest_settings(api, scene.cloth);
-  settings.air_damping = scene.air_damping;
-  return settings;
-}
-
 /// Where the vertices of a drawn sheet lie in a grid of points evenly spaced at rest.
 class DrawnGrid {
  public:
@@ -106,6 +100,12 @@ DrawnGrid drawn_grid(const pleat_api& api, const EnsembleScene& scene, const Dyn
 }  // namespace
 
 std::span<const EnsembleScene> ensemble_scenes() { return kScenes; }
+
+pleat_cloth_settings ensemble_settings(const pleat_api& api, const EnsembleScene& scene) {
+  pleat_cloth_settings settings = rest_settings(api, scene.cloth);
+  settings.air_damping = scene.air_damping;
+  return settings;
+}
 
 std::vector<float> perturbed_start(const RestScene& scene, Grid grid, uint32_t seed) {
   constexpr int kWaves = 4;
@@ -196,7 +196,7 @@ std::vector<Ensemble> run_members(const pleat_api& api, const EnsembleScene& sce
 
 EnsembleReference solve_ensemble(const pleat_api& api, const EnsembleScene& scene, const std::function<void()>& step) {
   const auto solve = [&](Grid grid) {
-    Dynamics dynamics = explicit_springs(api, scene.cloth, grid, settings_of(api, scene));
+    Dynamics dynamics = explicit_springs(api, scene.cloth, grid, ensemble_settings(api, scene));
     if (scene.rests) damp_to_rest(dynamics.settings);
     return run_members(api, scene, dynamics, {{"flat", PLEAT_SURFACE_FLAT, 1}}, step)[0];
   };
@@ -212,10 +212,9 @@ MeanDistance mean_distance(const Ensemble& a, const Ensemble& b) {
 
 uint32_t ensemble_steps(bool quick) { return kMembers * 2 * (quick ? 1 : 3); }
 
-EnsembleScores score_ensemble(const pleat_api& api, const EnsembleScene& scene, const EnsembleReference& reference,
-                              bool quick, const std::function<void()>& step) {
+EnsembleScores score_ensemble(const pleat_api& api, const EnsembleScene& scene, const pleat_cloth_settings& settings,
+                              const EnsembleReference& reference, bool quick, const std::function<void()>& step) {
   const Drawing flat = {"flat", PLEAT_SURFACE_FLAT, 1}, pleat = {"pleat", PLEAT_SURFACE_PLEAT, 1};
-  const pleat_cloth_settings settings = settings_of(api, scene);
   EnsembleScores all{&scene, reference, {}};
   for (size_t i = 1; i < (quick ? 2u : 4u); ++i) {
     const Grid grid = scene.cloth.coarse[i];

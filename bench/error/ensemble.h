@@ -20,6 +20,7 @@ struct EnsembleScene {
 
 /// Hung slack from two corners; from three points of its upper edge; falling from level between two corners.
 std::span<const EnsembleScene> ensemble_scenes();
+pleat_cloth_settings ensemble_settings(const pleat_api& api, const EnsembleScene& scene);
 
 inline constexpr uint32_t kMembers = 8;  ///< starts
 
@@ -75,10 +76,10 @@ struct EnsembleScores {
   EnsembleReference reference;
   std::vector<EnsembleScore> scores;
 };
-/// Our default surface, the same drawn flat and bare springs drawn flat, at 66, 264 and 1056 particles; with `quick` at
-/// the first of these. Calls `step` ensemble_steps(quick) times.
-EnsembleScores score_ensemble(const pleat_api& api, const EnsembleScene& scene, const EnsembleReference& reference,
-                              bool quick, const std::function<void()>& step);
+/// Our surface over the dynamics of `settings`, the same drawn flat and bare springs drawn flat, at 66, 264 and 1056
+/// particles; with `quick` at the first of these. Calls `step` ensemble_steps(quick) times.
+EnsembleScores score_ensemble(const pleat_api& api, const EnsembleScene& scene, const pleat_cloth_settings& settings,
+                              const EnsembleReference& reference, bool quick, const std::function<void()>& step);
 uint32_t ensemble_steps(bool quick);
 
 void print_ensembles(const std::vector<EnsembleScores>& all);

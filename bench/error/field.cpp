@@ -102,12 +102,9 @@ std::vector<Contestants> contestants(const pleat_api& api, const RestScene& scen
     add_peers(all, scene, grid, settings, quick);
   }
   // The way without curved surfaces: more particles.
-  const Grid last = scene.coarse.back(), finer = {2 * last.rows - 1, 2 * last.columns - 1, last.one_way};
   if (quick) {
     add(all, {"default", scene.coarse[2], settings, {}}, {kFlat});
     add_peers(all, scene, scene.coarse[2], settings, quick);
-  } else {
-    add(all, explicit_springs(api, scene, finer, settings), {kFlatSprings});
   }
   return all;
 }

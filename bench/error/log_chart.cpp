@@ -24,11 +24,13 @@ struct Axis {
   double at(double value) const { return (std::log10(value) - low) / (high - low) * pixels; }
 };
 
-/// Whole and third decades: 1, 2, 5.
-std::vector<double> ticks(const Axis& axis) {
+/// Whole decades, and 2 and 5 of each where words of `room` pixels do not meet.
+std::vector<double> ticks(const Axis& axis, double room) {
+  const bool between = 0.3 * axis.pixels / (axis.high - axis.low) >= room;
   std::vector<double> all;
   for (int decade = int(std::floor(axis.low)); decade <= int(std::ceil(axis.high)); ++decade) {
     for (const double digit : {1.0, 2.0, 5.0}) {
+      if (digit > 1.0 && !between) continue;
       const double value = digit * std::pow(10.0, decade);
       if (const double x = std::log10(value); x >= axis.low - 1e-9 && x <= axis.high + 1e-9) all.push_back(value);
     }
@@ -51,12 +53,12 @@ void marker(Svg& svg, size_t kind, double x, double y) {
 }
 
 void draw_axes(Svg& svg, const Axis& time, const Axis& error, double x0, double y0) {
-  for (const double value : ticks(time)) {
+  for (const double value : ticks(time, 30.0)) {
     const double x = x0 + time.at(value);
     svg.add("<path d=\"M%.1f %.1f v%d\" stroke=\"#e4e4e4\"/>\n", x, y0, kHeight);
     svg.text(x, y0 + kHeight + 13, number("%g", value), "middle");
   }
-  for (const double value : ticks(error)) {
+  for (const double value : ticks(error, 12.0)) {
     const double y = y0 + kHeight - error.at(value);
     svg.add("<path d=\"M%.1f %.1f h%d\" stroke=\"#e4e4e4\"/>\n", x0, y, kWidth);
     svg.text(x0 - 5, y + 4, number("%g", value), "end");
