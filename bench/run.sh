@@ -12,7 +12,7 @@ case ${1-} in
 Usage: bench/run.sh [--quick]
 
 Builds the preset \`release\` if need be, runs all programs of bench and writes bench/results/report.md, with the JSON
-and SVG files that it links to. Takes about half an hour on an idle machine; with --quick, smaller grids and fewer runs,
+and SVG files that it links to. Takes about 25 minutes on an idle machine; with --quick, smaller grids and fewer runs,
 less than three minutes. A bar that is missed is reported and no error; the exit status is 1 where a program failed.
 HELP
     [[ $1 == --help || $1 == -h ]] && exit
@@ -31,8 +31,8 @@ jobs=(
   'kick_60 15 5 frame_budget --scene skirt_kick --rate 60 --peer bullet'
   'hanging 60 10 frame_budget --scene hanging_square:16 --rate 60 --peer bullet'
   'drape 40 10 frame_budget --scene drape_sphere:16 --rate 60 --peer bullet'
-  "error_vs_time 400 20 error_vs_time --svg $results/error_vs_time.svg"
-  'dominant 200 8 error_vs_time --dominant'
+  "error_vs_time 280 20 error_vs_time --svg $results/error_vs_time.svg"
+  'dominant 100 8 error_vs_time --dominant'
   'ensembles 60 8 error_vs_time --ensembles'
   'surface_error 3 3 surface_error'
   "stability_map 400 15 stability_map --svg $results/stability_map.svg"
