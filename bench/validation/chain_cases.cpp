@@ -199,7 +199,7 @@ Checks own_weight(const pleat_api& api) {
   RigDef def = rig_of(api, chain);
   def.settings.air_damping = 12.0f;
   Rig rig(api, def);
-  const double dt = step_for(chain);
+  const double dt = 0.8 * step_for(chain);  // with this damping the longer one would be borne by softer springs
   rig.step(dt, int(8.0 / dt));
   double expected = -1.0;
   for (const double l : hanging_lengths(chain)) expected += l;
