@@ -40,7 +40,7 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
     speed += dot(gradient[k], v[k].vector);
   }
   const Lanes yields = yielding > 0.0f ? yielding : one;
-  const Lanes here = has_extent & (yielding > 0.0f) ? one : Lanes{};
+  const Lanes here = (has_extent & (yielding > 0.0f)) ? one : Lanes{};
 
   const Lanes theta = angle_of(-e_length * dot(na, x3 - x0), dot(na, nb));
   const Lanes inverse = 1.0f / yields;

@@ -32,7 +32,7 @@ TEST(RigidFitProperty, FindsTheRotationOfAnyCloudOfPoints) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(-1.0f, 1.0f);
   for (int run = 0; run < 200; ++run) {
-    std::vector<Vec3> arms(3 + run % 9);
+    std::vector<Vec3> arms(3 + static_cast<std::size_t>(run % 9));
     for (Vec3& arm : arms) arm = {any(random), any(random), any(random)};
     const float degrees = run % 4 == 0 ? 180.0f : 180.0f * any(random);
     const Quaternion turn = about({any(random), any(random), any(random)}, degrees);
