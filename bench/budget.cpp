@@ -178,7 +178,8 @@ std::string stage_group(const std::string& system) {
       {"surface_clearance", "clearance"},  {"particle_normals", "normals"},
       {"mesh_candidates", "collision"},    {"mesh_clearance", "clearance"},
       {"fold_sides", "edge_length"},       {"stretch_after_friction", "stretch"},
-      {"capsule_candidates", "collision"}, {"rounding_hold", "integration"}};
+      {"capsule_candidates", "collision"}, {"rounding_hold", "integration"},
+      {"contact_stick", "collision"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

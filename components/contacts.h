@@ -19,6 +19,7 @@ struct ContactRow {
   float friction;       // Coulomb coefficient of the pair
   float inverse_mass;   // 1/kg, sum of w_i b_i^2, or more near pins: how the point yields
   float push;           // m, total distance pushed in this substep's sweeps
+  float rubbed;         // m, what friction has taken back of sliding in this substep
 
   bool at_particle() const { return count == 1; }
   bool with_itself() const { return count == 4; }

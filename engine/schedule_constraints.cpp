@@ -27,6 +27,10 @@
 namespace pleat {
 namespace {
 
+#ifdef PLEAT_WITH_COLLISION
+constexpr float kCreepSpeed = 0.02f;  // m/s, of cloth that friction holds while the strain limit pulls at it
+#endif
+
 void limit_stretch(ClothTick& t) {
   run(StretchConstraint{.garment = &t.garment,
                         .inverse_mass = t.inverse_mass,
@@ -259,6 +263,15 @@ constexpr Row kRows[] = {
     // Rows of bodies that pinch the cloth push against each other in every sweep; friction takes the sum for pressure
     // and undoes what the strain limit has pulled. So the limit comes once more, and contact still has the last word.
     {Phase::kSubstepEnd, "stretch_after_friction", with_stretch_limit_and_colliders, limit_stretch},
+    // What the limit has pulled must not creep, nor a fold that hangs on it snap; what is stretched may slide.
+    {Phase::kSubstepEnd, "contact_stick", with_contacts,
+     [](ClothTick& t) {
+       run(ContactFriction{.contacts = contacts_of(t),
+                           .previous = t.previous,
+                           .inverse_mass = t.inverse_mass,
+                           .longest = kCreepSpeed * t.dt,
+                           .position = t.position});
+     }},
     {Phase::kSubstepEnd, "collision_last_word", with_contacts, respond},
 #endif
 

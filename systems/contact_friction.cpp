@@ -6,18 +6,21 @@ namespace pleat {
 
 bool ContactFriction::validate() const {
   return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && previous.x != nullptr &&
-         inverse_mass != nullptr && position.x != nullptr;
+         inverse_mass != nullptr && longest >= 0.0f && position.x != nullptr;
 }
 
 void ContactFriction::run() const {
   for (std::uint32_t c = 0; c < *contacts.count; ++c) {
-    const ContactRow& row = contacts.rows[c];
-    if (row.push == 0.0f || row.friction == 0.0f) continue;
+    ContactRow& row = contacts.rows[c];
+    const float most = row.friction * row.push - row.rubbed;
+    if (!(most > 0.0f)) continue;
     const Vec3 moved = contact_point(row, position) - contact_point(row, previous) - row.body_step;
     const Vec3 slid = moved - row.normal * dot(row.normal, moved);
     const float distance = length(slid);
-    if (distance < 1e-12f) continue;
-    shift_contact(row, slid * -std::min(1.0f, row.friction * row.push / distance), inverse_mass, position);
+    if (distance < 1e-12f || distance > longest) continue;
+    const float share = std::min(1.0f, most / distance);
+    shift_contact(row, slid * -share, inverse_mass, position);
+    row.rubbed += share * distance;
   }
 }
 

@@ -1,6 +1,8 @@
 // Friction between cloth and bodies, and what a contact does to velocities.
 #pragma once
 
+#include <limits>
+
 #include "components/contacts.h"
 
 namespace pleat {
@@ -8,14 +10,16 @@ namespace pleat {
 /// Coulomb friction on positions, against the moving surface: of the distance r that the touching point has slid along
 /// the body since the substep began, up to friction * push is taken back, push being how far the row has pushed.
 ///   x_i -= min(1, mu push / |r|) w_i b_i / (sum of w b^2) r
+/// Run again, it takes back what is left of friction * push, and only where r is `longest` or less.
 /// Reads:  contacts; previous (P) m, when the substep began; inverse_mass (P) 1/kg
-/// Writes: position (P) m
+/// Writes: position (P) m; rubbed of each row
 /// Cost:   O(rows), no allocation. Errors: none.
 /// Runs after the sweeps and before a last CollisionResponse, since it may move a point against another row.
 struct ContactFriction {
   ContactList contacts;
   ConstVec3View previous;
   const float* inverse_mass = nullptr;
+  float longest = std::numeric_limits<float>::infinity();  // slip, m
   Vec3View position;
 
   bool validate() const;

@@ -50,7 +50,8 @@ struct ContactRowMaker {
          .body_step = body_step,
          .friction = friction * body_friction,
          .inverse_mass = 0.0f,
-         .push = 0.0f},
+         .push = 0.0f,
+         .rubbed = 0.0f},
         stats, relaxation);
   }
 

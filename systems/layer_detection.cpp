@@ -57,7 +57,8 @@ void LayerDetection::run(Stats& stats) const {
                    .body_step = {},
                    .friction = friction,
                    .inverse_mass = 0.0f,
-                   .push = 0.0f};
+                   .push = 0.0f,
+                   .rubbed = 0.0f};
     for (int k = 0; k < 4; ++k) {
       if (is_own(k)) {
         row.particle[k - corners.own] = corners.particle[k];

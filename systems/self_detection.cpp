@@ -32,7 +32,8 @@ void SelfDetection::run(Stats& stats) const {
               .body_step = {},
               .friction = friction,
               .inverse_mass = 0.0f,
-              .push = 0.0f},
+              .push = 0.0f,
+              .rubbed = 0.0f},
              stats);
   }
 }

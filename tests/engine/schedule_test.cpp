@@ -103,7 +103,7 @@ TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
   scene.step(3);
   for (const char* name : {"contact_acceleration", "collider_motion", "capsule_candidates", "capsule_detection",
                            "mesh_detection", "collision_response", "contact_friction", "stretch_after_friction",
-                           "collision_last_word", "contact_velocity"}) {
+                           "contact_stick", "collision_last_word", "contact_velocity"}) {
     EXPECT_TRUE(scene.explain(name).ends_with("left out: no collider")) << scene.explain(name);
   }
   World& world = scene.inside();

@@ -27,7 +27,8 @@ struct Scene {
                           .body_step = {},
                           .friction = 0.0f,
                           .inverse_mass = yields,
-                          .push = 0.0f});
+                          .push = 0.0f,
+                          .rubbed = 0.0f});
   }
   CollisionResponse system(FaceResponse response = FaceResponse::kWeighted) {
     return {cloth.contacts(), cloth.inverse_mass.data(), response, cloth.position.view()};

@@ -11,6 +11,13 @@ namespace {
 
 constexpr float kDt = 0.002f, kThickness = 0.005f, kGravity = 9.81f;
 
+ContactFriction friction_of(ContactCloth& c) {
+  return {.contacts = c.contacts(),
+          .previous = c.previous.view(),
+          .inverse_mass = c.inverse_mass.data(),
+          .position = c.position.view()};
+}
+
 /// A particle on a plane through the origin that is tilted about z.
 struct Incline {
   ContactCloth cloth{{{0, 0, 0}, {0, 100, 0}, {1, 100, 0}}, {{0, 1, 2}}};
@@ -45,7 +52,7 @@ struct Incline {
     add_row();
     const CollisionResponse response{c.contacts(), c.inverse_mass.data(), FaceResponse::kWeighted, c.position.view()};
     for (int i = 0; i < 3; ++i) response.run(stats);
-    ContactFriction{c.contacts(), c.previous.view(), c.inverse_mass.data(), c.position.view()}.run();
+    friction_of(c).run();
     response.run(stats);
     c.velocity.view().add(0, (c.x(0) - predicted) * (1.0f / kDt));
     ContactVelocity{c.contacts(), c.inverse_mass.data(), kDt, c.velocity.view()}.run();
@@ -60,7 +67,8 @@ struct Incline {
                           .body_step = plane_velocity * kDt,
                           .friction = friction,
                           .inverse_mass = cloth.inverse_mass[0],
-                          .push = 0.0f});
+                          .push = 0.0f,
+                          .rubbed = 0.0f});
   }
 };
 
@@ -99,10 +107,35 @@ TEST(ContactFriction, DoesNotPullWithoutPush) {
   Incline incline(0.0f, 1.0f, false);
   incline.add_row();
   incline.cloth.put(0, {1, 1, 0}, {0, 1, 0});
-  ContactFriction{incline.cloth.contacts(), incline.cloth.previous.view(), incline.cloth.inverse_mass.data(),
-                  incline.cloth.position.view()}
-      .run();
+  friction_of(incline.cloth).run();
   EXPECT_EQ(incline.cloth.x(0), (Vec3{1, 1, 0}));
+}
+
+TEST(ContactFriction, TakesBackNoMoreInTwoRunsThanInOne) {
+  Incline incline(0.0f, 0.5f, false);
+  ContactCloth& c = incline.cloth;
+  incline.add_row();
+  c.rows[0].push = 0.001f;
+  c.put(0, {1.0f, 0, 0}, {0, 0, 0});
+  friction_of(c).run();
+  EXPECT_NEAR(c.x(0).x, 1.0f - 0.0005f, 1e-6f);
+  friction_of(c).run();
+  EXPECT_NEAR(c.x(0).x, 1.0f - 0.0005f, 1e-6f);
+}
+
+TEST(ContactFriction, LeavesASlipThatIsLongerThanAsked) {
+  Incline incline(0.0f, 0.5f, false);
+  ContactCloth& c = incline.cloth;
+  ContactFriction stick = friction_of(c);
+  stick.longest = 1e-4f;
+  for (const float slip : {0.9e-4f, 1.1e-4f}) {
+    c.row_count = 0;
+    incline.add_row();
+    c.rows[0].push = 0.001f;
+    c.put(0, {slip, 0, 0}, {0, 0, 0});
+    stick.run();
+    EXPECT_NEAR(c.x(0).x, slip < stick.longest ? 0.0f : slip, 1e-9f);
+  }
 }
 
 TEST(ContactVelocity, TakesOutOnlyLeavingVelocityOfRowsThatPushed) {
