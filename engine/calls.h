@@ -27,6 +27,7 @@ pleat_result world_step(pleat_world*, float);
 pleat_result world_set_gravity(pleat_world*, const float[3]);
 pleat_result world_set_wind(pleat_world*, const float[3]);
 pleat_result world_set_gust(pleat_world*, float, float, uint32_t);
+pleat_result world_keep_budget(pleat_world*, float, float);
 pleat_result world_stats(const pleat_world*, pleat_stats*);
 pleat_result world_explain(pleat_world*, pleat_text_fn, void*);
 
@@ -50,6 +51,7 @@ pleat_result cloth_create(pleat_world*, const pleat_cloth_def*, pleat_cloth*);
 pleat_result cloth_destroy(pleat_world*, pleat_cloth);
 pleat_result cloth_get(const pleat_world*, pleat_cloth, pleat_cloth_settings*);
 pleat_result cloth_set(pleat_world*, pleat_cloth, const pleat_cloth_settings*);
+pleat_result cloth_set_importance(pleat_world*, pleat_cloth, float);
 pleat_result cloth_info(const pleat_world*, pleat_cloth, pleat_cloth_info*);
 pleat_result cloth_move_pins(pleat_world*, pleat_cloth, const float*, uint32_t, uint32_t);
 pleat_result cloth_read_particles(const pleat_world*, pleat_cloth, float*, float*, uint32_t);

@@ -162,6 +162,14 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
   });
 }
 
+pleat_result cloth_set_importance(pleat_world* handle, pleat_cloth cloth, float importance) {
+  return guarded(as_world(handle), "cloth_set_importance", [&] {
+    ClothRecord& record = need_cloth(need_world(handle), cloth);
+    need_range("importance", importance, 0.0, 1e30);
+    record.importance = importance;
+  });
+}
+
 pleat_result cloth_info(const pleat_world* handle, pleat_cloth cloth, pleat_cloth_info* info) {
   return guarded(as_world(handle), "cloth_info", [&] {
     const World& world = need_world(handle);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "components/tethers.h"
+#include "engine/budget.h"
 #include "engine/sleep.h"
 #include "systems/frequency_bound.h"
 #include "systems/largest_stretch.h"
@@ -99,15 +100,17 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
   const std::uint32_t least = substeps_against_tunnelling(t, dt);
   const StableStep stable = stable_step(t);
   assert(stable.validate());
-  std::uint32_t n = t.settings.substeps;
+  std::uint32_t n = t.cloth.substeps_wanted = t.settings.substeps;
   if (n == 0) {
     const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
     const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
     // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
     const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
     n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
+    t.cloth.substeps_wanted = n;
+    const std::uint32_t most = std::min(kStiffSubsteps * std::max(n, least), kMostSubsteps);
+    n = static_cast<std::uint32_t>(std::ceil(static_cast<float>(n) * t.cloth.substep_share));
     n = std::clamp(least, n, kMostSubsteps);
-    const std::uint32_t most = std::min(kStiffSubsteps * n, kMostSubsteps);
     n = std::min(stable.run(dt, n, most), most);
   }
   if (n < least) ++t.worker.stats.fast_bodies;
@@ -188,6 +191,7 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     return;
   }
   if (cloth.settling > 0.0f) watch_settling(t);
+  fade_detail(world, cloth, dt);
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
   copy(t.start_velocity, t.velocity, t.garment.particle_count);

@@ -57,6 +57,8 @@ constexpr pleat_api kApi = {
     .cloth_contact_report = call::cloth_contact_report,
     .cloth_teleport = call::cloth_teleport,
     .cloth_bounds = call::cloth_bounds,
+    .world_keep_budget = call::world_keep_budget,
+    .cloth_set_importance = call::cloth_set_importance,
 };
 
 }  // namespace

@@ -365,6 +365,8 @@ typedef struct pleat_stats {
   uint64_t fallbacks;          /* of these, ticks for which no number of substeps was enough: the cloth was left as it
                                   had been, at rest, its pins where they should be. The log says so once */
   uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
+  uint64_t folds_given_up;     /* cloths that do without folds for the budget: see world_keep_budget */
+  uint64_t substeps_given_up;  /* cloths that do with a half or a quarter of their substeps */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
@@ -495,6 +497,15 @@ typedef struct pleat_api {
                                  const float rotation[4]);
   /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. */
   pleat_result (*cloth_bounds)(const pleat_world* world, pleat_cloth cloth, float low[3], float high[3]);
+  /* Level of detail, to be called after each tick with what it took by the host's own clock: where it is more than the
+   * budget, cloths give up folds, then half of their substeps, then half of the rest, the least important ones first
+   * and as many as seem to be needed; below .8 of it they take them back. Folds fade within a quarter of a second,
+   * substeps are halved within a second; of the substeps as many are kept as bodies need in order not to pass through,
+   * and cloths whose `substeps` are set keep theirs. The same numbers give the same bits. budget_ms = 0: all have full
+   * detail again. The level of the drawn triangles is the host's, see cloth_suggest_level: it owns the indices. */
+  pleat_result (*world_keep_budget)(pleat_world* world, float budget_ms, float cost_ms);
+  /* For the budget: size on screen, say, of any unit, >= 0; 1 until it is set. May be called every frame. */
+  pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

@@ -172,6 +172,8 @@ void refresh(World& world, ClothRecord& cloth) {
   collect_counts(world);
 }
 
+void replan(const World& world, ClothRecord& cloth) { cloth.plan = plan_of(world, cloth); }
+
 void replan(World& world) {
   wake_all(world);
   for (ClothRecord& cloth : world.clothes) {

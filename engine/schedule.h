@@ -23,6 +23,9 @@ void refresh(World& world, ClothRecord& cloth);
 /// The same decision for all cloths, after the scene's colliders, gravity or wind changed. Throws std::bad_alloc.
 void replan(World& world);
 
+/// And for one cloth, whose need of optional columns is as it was: on any thread.
+void replan(const World& world, ClothRecord& cloth);
+
 /// Advances the world by dt seconds. Allocates nothing once each cloth has been through a tick.
 void tick(World& world, float dt);
 

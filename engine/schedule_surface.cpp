@@ -4,6 +4,7 @@
 #include "systems/drawn_normals.h"
 #include "systems/drawn_tangents.h"
 #include "systems/edge_length.h"
+#include "systems/fold_fade.h"
 #include "systems/fold_relaxation.h"
 #include "systems/fold_sides.h"
 #include "systems/particle_normals.h"
@@ -26,17 +27,22 @@ const char* with_normals(const World&, const ClothRecord& c) {
 }
 const char* with_folds(const World&, const ClothRecord& c) {
   return c.settings.surface == PLEAT_SURFACE_FLAT ? "flat surface"
-         : has_folds(surface_mode(c.settings))    ? kNeeded
-                                                  : "surface without folds, edges keep their curve";
+         : !has_folds(surface_mode(c.settings))   ? "surface without folds, edges keep their curve"
+         : c.fold_share == 0.0f                   ? "folds are given up for the budget"
+                                                  : kNeeded;
+}
+const char* with_fading(const World& w, const ClothRecord& c) {
+  if (const char* why = with_folds(w, c); why != kNeeded) return why;
+  return c.fold_share == 1.0f ? "folds are drawn in full" : kNeeded;
 }
 const char* with_tangents(const World&, const ClothRecord& c) {
   return c.settings.tangents == 0 ? "tangents is 0" : kNeeded;
 }
 
-const char* with_fold_relaxation(const World&, const ClothRecord& c) {
+const char* with_fold_relaxation(const World& w, const ClothRecord& c) {
   return c.settings.fold_sweeps == 0                 ? "fold_sweeps = 0"
          : c.settings.surface != PLEAT_SURFACE_PLEAT ? "folds of another surface, or none"
-                                                     : kNeeded;
+                                                     : with_folds(w, c);
 }
 
 #ifdef PLEAT_WITH_COLLISION
@@ -91,6 +97,10 @@ constexpr Row kRows[] = {
                           .fold = t.fold,
                           .fold_height = t.fold_height,
                           .scratch = t.worker.fold_scratch.view()});
+     }},
+    {Phase::kFrameEnd, "fold_fade", with_fading,
+     [](ClothTick& t) {
+       run(FoldFade{.edge_count = t.garment.edge_count, .share = t.cloth.fold_share, .fold_height = t.fold_height});
      }},
     {Phase::kFrameEnd, "tessellation", always,
      [](ClothTick& t) {

@@ -105,7 +105,9 @@ World::World(const pleat_world_def& definition)
       meshes(&memory),
       planes(&memory),
       mesh_pointers(&memory),
-      workers(&memory) {
+      workers(&memory),
+      detail(&memory),
+      detail_order(&memory) {
   workers.reserve(def.workers);
   for (std::uint32_t k = 0; k < def.workers; ++k) workers.emplace_back(k, &memory);
   if (def.workers == 1 || def.parallel_for != nullptr) return;

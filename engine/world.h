@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "components/colliders.h"
+#include "components/detail.h"
 #include "components/frequency_rates.h"
 #include "components/garment.h"
 #include "components/near_pairs.h"
@@ -69,6 +70,11 @@ struct ClothRecord {
   std::uint32_t lowered_at = 0;              // substeps with which the stiffness was lowered
   bool said_jump = false;                    // that its pins jumped
   Vec3 pin_velocity;                         // m/s, mean of the last tick
+  float importance = 1.0f;                   // the host's, against other cloths; budget.h
+  std::uint32_t given_up = 0;                // steps of detail
+  float fold_share = 1.0f;                   // of their height, with which folds are drawn
+  float substep_share = 1.0f;                // that is taken of those wanted
+  std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
   float settling = kSettling;                // s, for how much longer a start that is stretched is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
@@ -137,6 +143,10 @@ struct World {
 
   mutable std::pmr::vector<Worker> workers;        // at least one; scratch, also for questions
   std::unique_ptr<ThreadPool, MemoryDelete> pool;  // where there are more and the host has no parallel_for
+
+  Column<DetailCandidate> detail;      // scratch of the budget, empty without one
+  Column<std::uint32_t> detail_order;  // the same
+  float pace = 0.0f;                   // ms a unit of work, by what the host told of the last ticks; 0: not yet
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;

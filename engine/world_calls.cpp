@@ -1,4 +1,5 @@
 #include "engine/border.h"
+#include "engine/budget.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
 #include "engine/sleep.h"
@@ -30,6 +31,7 @@ void need_gust(float gust, float frequency) {
   need_range("gust_frequency", frequency, 1e-3, 1e3);
 }
 
+constexpr double kLongest = 1e6;                       // ms
 constexpr double kMostGravity = 1e4, kMostWind = 1e4;  // m/s2, m/s
 
 }  // namespace
@@ -98,6 +100,15 @@ pleat_result world_set_gust(pleat_world* handle, float gust, float frequency, ui
   });
 }
 
+pleat_result world_keep_budget(pleat_world* handle, float budget_ms, float cost_ms) {
+  return guarded(as_world(handle), "world_keep_budget", [&] {
+    World& world = need_world(handle);
+    need_range("budget_ms", budget_ms, 0.0, kLongest);
+    need_range("cost_ms", cost_ms, 0.0, kLongest);
+    keep_budget(world, budget_ms, cost_ms);
+  });
+}
+
 pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
   return guarded(as_world(handle), "world_stats", [&] {
     const World& world = need_world(handle);
@@ -119,6 +130,10 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.rollbacks = world.stats.rollbacks;
     all.fallbacks = world.stats.fallbacks;
     all.sleeping = world.stats.sleeping;
+    for (const ClothRecord& cloth : world.clothes) {
+      if (gives_up_folds(cloth)) ++all.folds_given_up;
+      if (gives_up_substeps(cloth)) ++all.substeps_given_up;
+    }
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();

@@ -325,6 +325,23 @@ TEST_F(Cloth, TeleportChecksItsInput) {
   EXPECT_NEAR(state()[0], 4.5f, 1e-3f);
 }
 
+TEST_F(Cloth, ImportanceAndBudgetAreChecked) {
+  for (const float value : {-1.0f, kNan, kInfinity}) {
+    const auto refused = [&](const char* field, auto call) { expect_refused(PLEAT_ERROR_ARGUMENT, field, call); };
+    refused("importance", [&] { return api().cloth_set_importance(world, cloth, value); });
+    refused("budget_ms", [&] { return api().world_keep_budget(world, value, 1.0f); });
+    refused("cost_ms", [&] { return api().world_keep_budget(world, 1.0f, value); });
+  }
+  const pleat_cloth gone{cloth.index, cloth.generation + 1};
+  expect_refused(PLEAT_ERROR_HANDLE, "cloth", [&] { return api().cloth_set_importance(world, gone, 1.0f); });
+  EXPECT_EQ(api().cloth_set_importance(world, cloth, 0.0f), pleat_result{PLEAT_OK});
+  EXPECT_EQ(api().world_keep_budget(world, 0.0f, 0.0f), pleat_result{PLEAT_OK});
+  services.allowed = 0;
+  expect_refused(PLEAT_ERROR_MEMORY, "out of memory", [&] { return api().world_keep_budget(world, 1.0f, 5.0f); });
+  services.allowed = -1;
+  EXPECT_EQ(api().world_keep_budget(world, 1.0f, 5.0f), pleat_result{PLEAT_OK});
+}
+
 TEST_F(Cloth, SuggestedLevelIsChecked) {
   std::uint32_t level = 99;
   for (const float value : {0.0f, -1.0f, kNan, kInfinity}) {
