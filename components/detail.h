@@ -7,7 +7,7 @@
 
 namespace pleat {
 
-/// Steps of detail, each with those before it: 1 no folds, 2 half of the substeps, 3 a quarter of them.
+/// Steps of detail, each with those before it: 1 no folds, 2 half of the substeps, 3 a third of them.
 inline constexpr std::uint32_t kMostGivenUp = 3;
 
 struct DetailCandidate {

@@ -59,7 +59,7 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
 }
 
 void fade_detail(World& world, ClothRecord& cloth, float dt) {
-  const float substeps = gives_up_substeps(cloth) ? std::exp2(1.0f - static_cast<float>(cloth.given_up)) : 1.0f;
+  const float substeps = gives_up_substeps(cloth) ? 1.0f / static_cast<float>(cloth.given_up) : 1.0f;
   cloth.substep_share = faded(cloth.substep_share, substeps, dt * kSubstepsFade);
   const float folds = gives_up_folds(cloth) ? 0.0f : 1.0f;
   if (cloth.fold_share == folds) return;

@@ -104,7 +104,7 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
   if (n == 0) {
     const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
     const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
-    // The small allowance keeps 1/60 s at 8 steps of 1/480 s despite rounding.
+    // The small allowance keeps 1/60 s at 6 steps of 1/360 s despite rounding.
     const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
     n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));
     t.cloth.substeps_wanted = n;

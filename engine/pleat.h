@@ -97,7 +97,7 @@ typedef struct pleat_world_def {
   float gravity[3];           /* m/s2; default (0, -9.81, 0) */
   float wind[3];              /* m/s, velocity of the air; default 0. Acts on cloths with drag_coefficient > 0 */
   float air_density;          /* kg/m3; default 1.225 */
-  float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/480 */
+  float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/360 */
   pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up.
                                  Only the matrices of PLEAT_INTEGRATOR_IMPLICIT_EULER are Eigen's and go past it */
   pleat_free_fn free;
@@ -218,7 +218,7 @@ typedef struct pleat_cloth_settings {
   uint32_t sweeps;     /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
                           farthest particle; default 3, 1..64 */
   float density;       /* kg/m2; default 0.2 */
-  float stiffness; /* k of eq (1), N/m; default 300. Holds against slight compression; the strain limit holds the length
+  float stiffness; /* k of eq (1), N/m; default 310. Holds against slight compression; the strain limit holds the length
                     */
   float stretch_limit;    /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
   float bend_stiffness;   /* B of the cloth, N m; default 5e-5; 0 leaves bending out */
@@ -366,7 +366,7 @@ typedef struct pleat_stats {
                                   had been, at rest, its pins where they should be. The log says so once */
   uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
   uint64_t folds_given_up;     /* cloths that do without folds for the budget: see world_keep_budget */
-  uint64_t substeps_given_up;  /* cloths that do with a half or a quarter of their substeps */
+  uint64_t substeps_given_up;  /* cloths that do with a half or a third of their substeps */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
@@ -498,7 +498,7 @@ typedef struct pleat_api {
   /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. */
   pleat_result (*cloth_bounds)(const pleat_world* world, pleat_cloth cloth, float low[3], float high[3]);
   /* Level of detail, to be called after each tick with what it took by the host's own clock: where it is more than the
-   * budget, cloths give up folds, then half of their substeps, then half of the rest, the least important ones first
+   * budget, cloths give up folds, then half of their substeps, then a third of the rest, the least important ones first
    * and as many as seem to be needed; below .8 of it they take them back. Folds fade within a quarter of a second,
    * substeps are halved within a second; of the substeps as many are kept as bodies need in order not to pass through,
    * and cloths whose `substeps` are set keep theirs. The same numbers give the same bits. budget_ms = 0: all have full

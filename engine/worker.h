@@ -8,9 +8,9 @@
 #include "components/hinge_scratch.h"
 #include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
-#include "components/vec4.h"
 #include "components/stats.h"
 #include "components/surface.h"
+#include "components/vec4.h"
 
 namespace pleat {
 

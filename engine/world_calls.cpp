@@ -13,7 +13,7 @@ const pleat_world_def& default_world() {
     d.size = sizeof d;
     d.gravity[1] = -9.81f;
     d.air_density = 1.225f;
-    d.max_substep = 1.0f / 480.0f;
+    d.max_substep = 1.0f / 360.0f;
     d.gust_frequency = 2.0f;
     d.workers = 1;
     return d;

@@ -15,12 +15,12 @@ constexpr float kClearlyLess = 0.8f;  // times as important
 
 std::array<float, kMostGivenUp + 1> detail_work(std::uint32_t particles, std::uint32_t substeps, std::uint32_t folds,
                                                 std::uint32_t drawn, bool shrinks) {
-  const auto dynamics = [&](std::uint32_t shift) {
-    const std::uint32_t taken = shrinks && substeps != 0 ? std::max(substeps >> shift, 1u) : substeps;
+  const auto dynamics = [&](std::uint32_t share) {
+    const std::uint32_t taken = shrinks && substeps != 0 ? std::max(substeps / share, 1u) : substeps;
     return static_cast<float>(particles) * static_cast<float>(taken);
   };
   const float surface = kWorkOfDrawn * static_cast<float>(drawn), folding = kWorkOfFold * static_cast<float>(folds);
-  return {dynamics(0) + surface + folding, dynamics(0) + surface, dynamics(1) + surface, dynamics(2) + surface};
+  return {dynamics(1) + surface + folding, dynamics(1) + surface, dynamics(2) + surface, dynamics(3) + surface};
 }
 
 bool DetailChoice::validate() const {

@@ -39,8 +39,8 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
     yielding += x[k].w * dot(gradient[k], gradient[k]);
     speed += dot(gradient[k], v[k].vector);
   }
-  const Lanes yields = yielding > 0.0f ? yielding : one;
-  const Lanes here = (has_extent & (yielding > 0.0f)) ? one : Lanes{};
+  const LaneMask bends = has_extent & (yielding > 0.0f);
+  const Lanes yields = bends ? yielding : one, here = bends ? one : Lanes{};
 
   const Lanes theta = angle_of(-e_length * dot(na, x3 - x0), dot(na, nb));
   const Lanes inverse = 1.0f / yields;

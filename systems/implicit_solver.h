@@ -14,8 +14,8 @@ namespace pleat {
 /// factor: found once, used by all cloths cut from it, one at a time. Throws std::bad_alloc.
 ///
 /// Its memory is Eigen's own, from malloc and operator new, not the host's: Eigen 3.4 has no allocators, and a factor
-/// keeps its numbers in a sparse matrix that cannot lie on foreign memory. A worker's is 1.2 kB a particle for a sheet of
-/// 100 particles, 2.3 kB for one of 1000, taken when a cloth is made or gets this integrator.
+/// keeps its numbers in a sparse matrix that cannot lie on foreign memory. A worker's is 1.2 kB a particle for a sheet
+/// of 100 particles, 2.3 kB for one of 1000, taken when a cloth is made or gets this integrator.
 class ImplicitMatrix {
  public:
   explicit ImplicitMatrix(const Garment& garment);

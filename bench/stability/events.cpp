@@ -117,8 +117,8 @@ void capsule_appears(EventStage& stage) {
   stage.add_capsule({-0.3f, 1.5f, stage.pins[2]}, {0.3f, 1.5f, stage.pins[2]}, 0.15f);
 }
 
-/// A body beside the cloth is elsewhere in the next tick: `way` m across it, from one side to the other or, where `into`,
-/// to where the cloth is.
+/// A body beside the cloth is elsewhere in the next tick: `way` m across it, from one side to the other or, where
+/// `into`, to where the cloth is.
 auto capsule_jumps(float way, bool into) {
   return [way, into](EventStage& stage) {
     const float from = into ? stage.pins[2] - way : stage.pins[2] - 0.5f * way;

@@ -149,15 +149,15 @@ Checks order(const pleat_api& api) {
   Checks checks;
   constexpr double kPhase = 20.0;  // rad
   // Runge-Kutta's error falls below single precision soon: it needs large steps and a large amplitude. Implicit Euler
-  // damps with rate omega^2 dt: it needs small ones. So does the projected one, but what it adds to velocities is rounded
-  // like positions, by 6e-8 / (omega dt) of them a step: below omega dt = 0.01 nothing else is seen.
+  // damps with rate omega^2 dt: it needs small ones. So does the projected one, but what it adds to velocities is
+  // rounded like positions, by 6e-8 / (omega dt) of them a step: below omega dt = 0.01 nothing else is seen.
   struct Study {
     const Scheme& scheme;
     double amplitude, coarsest, order;
   };
-  for (const Study& study : {Study{kSymplectic, 0.05, 0.05, 1.0}, Study{kExplicit, 0.05, 0.01, 1.0},
-                             Study{kRungeKutta, 0.1, 0.4, 4.0}, Study{kImplicit, 0.05, 0.005, 1.0},
-                             Study{kProjected, 0.2, 0.02, 1.0}}) {
+  for (const Study& study :
+       {Study{kSymplectic, 0.05, 0.05, 1.0}, Study{kExplicit, 0.05, 0.01, 1.0}, Study{kRungeKutta, 0.1, 0.4, 4.0},
+        Study{kImplicit, 0.05, 0.005, 1.0}, Study{kProjected, 0.2, 0.02, 1.0}}) {
     const double time = kPhase / kOmega;
     const int least = int(std::lround(kPhase / study.coarsest));
     const Phase truth = solution(study.amplitude, time);

@@ -44,18 +44,18 @@ float largest_move(const std::vector<float>& from, const std::vector<float>& to)
 
 TEST(Budget, SubstepsAreGivenUpAndTakenBack) {
   Wardrobe w;
-  EXPECT_EQ(w.scene.info(w.cloths[0]).substeps, 16u);
+  EXPECT_EQ(w.scene.info(w.cloths[0]).substeps, 12u);
   w.give_up();
   w.tick(1);
-  EXPECT_EQ(w.scene.info(w.cloths[0]).substeps, 16u) << "not at once";
+  EXPECT_EQ(w.scene.info(w.cloths[0]).substeps, 12u) << "not at once";
   w.tick(15);
-  EXPECT_NEAR(w.scene.info(w.cloths[0]).substeps, 12.0, 1.0) << "a quarter within half a second";
+  EXPECT_NEAR(w.scene.info(w.cloths[0]).substeps, 9.0, 1.0) << "a quarter within half a second";
   w.tick(30);
   for (const pleat_cloth cloth : w.cloths) EXPECT_EQ(w.scene.info(cloth).substeps, 4u);
   EXPECT_EQ(w.scene.stats().substeps_given_up, 3u);
   w.take_back();
   w.tick(46);
-  for (const pleat_cloth cloth : w.cloths) EXPECT_EQ(w.scene.info(cloth).substeps, 16u);
+  for (const pleat_cloth cloth : w.cloths) EXPECT_EQ(w.scene.info(cloth).substeps, 12u);
   EXPECT_EQ(w.scene.stats().substeps_given_up, 0u);
   w.give_up();
   must(call::world_keep_budget(w.scene, 0.0f, 0.0f));
@@ -64,11 +64,11 @@ TEST(Budget, SubstepsAreGivenUpAndTakenBack) {
 
 TEST(Budget, TheLeastImportantGiveUpFirst) {
   Wardrobe w;
-  w.keep(1.0f, 1.2f, 1);
+  w.keep(1.0f, 1.1f, 1);
   w.tick(30);
-  EXPECT_LT(w.scene.info(w.cloths[0]).substeps, 16u);
-  EXPECT_EQ(w.scene.info(w.cloths[1]).substeps, 16u);
-  EXPECT_EQ(w.scene.info(w.cloths[2]).substeps, 16u);
+  EXPECT_LT(w.scene.info(w.cloths[0]).substeps, 12u);
+  EXPECT_EQ(w.scene.info(w.cloths[1]).substeps, 12u);
+  EXPECT_EQ(w.scene.info(w.cloths[2]).substeps, 12u);
 }
 
 TEST(Budget, SubstepsThatTheHostSetStay) {

@@ -217,14 +217,14 @@ TEST(Schedule, SubstepsFollowTheLongestInternalStep) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(3));
   scene.step(1, 1.0f / 60);
-  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  EXPECT_EQ(scene.info(cloth).substeps, 6u);
   scene.step(1, 1.0f / 30);
-  EXPECT_EQ(scene.info(cloth).substeps, 16u);
+  EXPECT_EQ(scene.info(cloth).substeps, 12u);
   scene.step(1, 1.0f);
   EXPECT_EQ(scene.info(cloth).substeps, 64u);
   scene.step(1, 1e-5f);
   EXPECT_EQ(scene.info(cloth).substeps, 1u);
-  EXPECT_EQ(scene.stats().substeps, 89u);
+  EXPECT_EQ(scene.stats().substeps, 83u);
   EXPECT_EQ(scene.stats().ticks, 4u);
 }
 
@@ -235,23 +235,23 @@ TEST(Schedule, StiffSpringsGetMoreSubstepsAndSayWhenTheyNeedTooMany) {
   s.stiffness = 30.0f;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4), s);
   scene.step(1, 1.0f / 60);
-  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  EXPECT_EQ(scene.info(cloth).substeps, 6u);
   s.stiffness = 2000.0f;
   must(call::cloth_set(scene, cloth, &s));
   scene.step(1, 1.0f / 60);
   const std::uint32_t stiff = scene.info(cloth).substeps;
-  EXPECT_GT(stiff, 8u);
-  EXPECT_LT(stiff, 32u);
+  EXPECT_GT(stiff, 6u);
+  EXPECT_LT(stiff, 24u);
   EXPECT_EQ(scene.stats().stiffness_lowered, 0u);
   s.stiffness = 1e9f;
   must(call::cloth_set(scene, cloth, &s));
   scene.step(3, 1.0f / 60);
-  EXPECT_EQ(scene.info(cloth).substeps, 32u);
+  EXPECT_EQ(scene.info(cloth).substeps, 24u);
   EXPECT_EQ(scene.stats().stiffness_lowered, 3u);
   s.integrator = PLEAT_INTEGRATOR_PROJECTED;  // stable as it is
   must(call::cloth_set(scene, cloth, &s));
   scene.step(1, 1.0f / 60);
-  EXPECT_EQ(scene.info(cloth).substeps, 8u);
+  EXPECT_EQ(scene.info(cloth).substeps, 6u);
   s.integrator = PLEAT_INTEGRATOR_IMPLICIT_EULER;
   must(call::cloth_set(scene, cloth, &s));
   scene.step(1, 1.0f / 60);

@@ -185,13 +185,13 @@ TEST(Step, FreeClothFallsByTheDiscreteLaw) {
   scene.inside().particles.inverse_mass[0] = scene.inside().particles.inverse_mass[5];  // let the pins go
   scene.inside().particles.inverse_mass[3] = scene.inside().particles.inverse_mass[5];
   for (int i = 1; i <= 30; ++i) {  // carried pins fall alongside
-    const float t = static_cast<float>(i) / 60, y = -0.5f * 9.81f * t * (t + 1.0f / 480);
+    const float t = static_cast<float>(i) / 60, y = -0.5f * 9.81f * t * (t + 1.0f / 360);
     const float pins[2][3] = {{-0.5f, y, -0.5f}, {0.5f, y, -0.5f}};
     must(call::cloth_move_pins(scene, cloth, pins[0], 0, 2));
     scene.step();
   }
   const float t = 0.5f;
-  EXPECT_NEAR(scene.particles(cloth)[3 * 10 + 1] - before, -0.5f * 9.81f * t * (t + 1.0f / 480), 2e-3f);
+  EXPECT_NEAR(scene.particles(cloth)[3 * 10 + 1] - before, -0.5f * 9.81f * t * (t + 1.0f / 360), 2e-3f);
 }
 
 TEST(Step, ExtremeSettingsStayFinite) {

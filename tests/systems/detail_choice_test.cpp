@@ -133,10 +133,10 @@ TEST(DetailChoice, PropertyMeasuredTimesThatWaverSettle) {
 }
 
 TEST(DetailWork, FallsStepByStepAndStopsAtOneSubstep) {
-  const auto work = detail_work(66, 16, 176, 1000, true);
+  const auto work = detail_work(66, 12, 176, 1000, true);
   EXPECT_GT(work[0], work[1]);
-  EXPECT_FLOAT_EQ(work[1] - work[2], 66.0f * 8.0f);
-  EXPECT_FLOAT_EQ(work[2] - work[3], 66.0f * 4.0f);
+  EXPECT_FLOAT_EQ(work[1] - work[2], 66.0f * 6.0f);
+  EXPECT_FLOAT_EQ(work[2] - work[3], 66.0f * 2.0f);
   const auto one = detail_work(66, 1, 0, 0, true);
   EXPECT_EQ(one[0], one[3]);
   const auto fixed = detail_work(66, 16, 176, 1000, false);

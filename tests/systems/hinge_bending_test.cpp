@@ -193,6 +193,16 @@ TEST(HingeBending, FaceWithoutAreaIsPassedOver) {
   for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(sheet.force[i], Vec3{});
 }
 
+TEST(HingeBending, AFaceThatHasAllButVanishedIsPassedOver) {
+  for (const float size : {1e-8f, 1e-11f, 1e-14f, 1e-20f, 1e-30f}) {
+    Sheet sheet = hinge();
+    for (std::uint32_t i = 0; i < 4; ++i) sheet.position.set(i, sheet.position[i] * size);
+    shake(sheet.velocity, sheet.count, 2.0f, 1);
+    job(sheet, 1.0f, 4.0f).run();
+    for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(sheet.force[i], Vec3{}) << size;
+  }
+}
+
 TEST(HingeBending, PropertyEveryVectorSetGivesTheSameBits) {
   if (widest_vectors() == VectorSet::kBaseline) GTEST_SKIP() << "the processor has no AVX2";
   for (std::uint32_t n = 2; n < 12; ++n) {  // blocks that are full, and the rest of one
