@@ -119,6 +119,14 @@ inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
   }
 }
 
+/// What forces on edges and hinges read and add to, as vectors; unpack(packed.force) brings them back.
+inline void pack_state(ConstVec3View position, const float* inverse_mass, ConstVec3View velocity, ConstVec3View force,
+                       std::size_t count, Vec4Columns& packed) {
+  pack(position, inverse_mass, count, packed.position.data());
+  pack(velocity, nullptr, count, packed.velocity.data());
+  pack(force, nullptr, count, packed.force.data());
+}
+
 /// Eight vectors and what each carries besides.
 struct Vec4Lanes {
   Vec3Lanes vector;

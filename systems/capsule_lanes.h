@@ -24,8 +24,14 @@ struct Core {
   }
 };
 
+/// To the places from where they are nearest to on the core, m.
+PLEAT_KERNEL Vec3Lanes away_from(const Core& core, const Vec3Lanes& position) {
+  const Vec3Lanes p = position - core.a;
+  return p - core.axis * clamped(dot(p, core.axis) * core.inverse);
+}
+
 PLEAT_KERNEL LaneMask is_near(const Core& core, const Vec3Lanes& position) {
-  const Vec3Lanes p = position - core.a, away = p - core.axis * clamped(dot(p, core.axis) * core.inverse);
+  const Vec3Lanes away = away_from(core, position);
   return dot(away, away) < core.reach2;
 }
 

@@ -35,17 +35,6 @@ inline float signed_distance(const Vec3& p, const CapsulePose& c) {
   return length(p - lerp(c.a, c.b, t)) - radius_at(c, t);
 }
 
-/// No point of a segment of squared length l2, whose ends are at squared distances a2 and b2 from a convex core, is
-/// nearer to it than to a point at the same distances from both ends: the height of that triangle. Without a branch.
-inline bool segment_is_beyond(float a2, float b2, float l2, float reach2) {
-  const float x = a2 - b2 + l2;
-  const bool between = !((x <= 0.0f) | (x >= 2.0f * l2));
-  return (std::min(a2, b2) >= reach2) & (!between | (4.0f * l2 * (a2 - reach2) > x * x));
-}
-/// Nor is one of a triangle, whose longest side has the squared length l2 and whose nearest corner is at the squared
-/// distance a2: it is within a third of l2 of a corner (method.md F, theorem 1).
-inline bool triangle_is_beyond(float a2, float l2, float reach2) { return a2 > reach2 + l2 * (1.0f / 3.0f); }
-
 /// From a capsule to a triangle, where they come closest.
 struct CapsuleGap {
   Vec3 away;       // from the core to the point of the triangle, m; short or zero where they cross

@@ -34,9 +34,7 @@ bool EdgeDamping::validate() const {
 void EdgeDamping::run(VectorSet set) const {
   run_wide(set, [this] {
     const std::size_t count = garment->particle_count;
-    pack(position, inverse_mass, count, packed->position.data());
-    pack(velocity, nullptr, count, packed->velocity.data());
-    pack(force, nullptr, count, packed->force.data());
+    pack_state(position, inverse_mass, velocity, force, count, *packed);
     damp(*garment, std::min(rate, 0.2f / dt), *packed);
     unpack(packed->force.data(), count, force);
   });

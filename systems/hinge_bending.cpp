@@ -89,9 +89,7 @@ bool HingeBending::validate() const {
 void HingeBending::run(VectorSet set) const {
   run_wide(set, [this] {
     const std::size_t count = garment->particle_count;
-    pack(position, inverse_mass, count, packed->position.data());
-    pack(velocity, nullptr, count, packed->velocity.data());
-    pack(force, nullptr, count, packed->force.data());
+    pack_state(position, inverse_mass, velocity, force, count, *packed);
     bend_all(*this);
     unpack(packed->force.data(), count, force);
   });

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "components/lanes.h"
-#include "components/wide.h"
-#include "systems/capsule_shape.h"
+#include "systems/capsule_lanes.h"
 
 namespace pleat {
 namespace {
@@ -53,13 +51,10 @@ struct FaceVertices {
   /// How far the places are from the core, squared, m2, and how far the motion goes towards it, m. Returns the least of
   /// the first.
   PLEAT_KERNEL float measure(const CapsulePose& c) {
-    const Vec3 along = c.b - c.a;
-    const float along2 = dot(along, along);
-    const Vec3Lanes a = all(c.a), axis = all(along);
-    const Lanes inverse = all(along2 > 0.0f ? 1.0f / along2 : 0.0f);
+    const Core core(c, 0.0f);
     Lanes least = all(std::numeric_limits<float>::max());
     for (std::uint32_t i = 0; i < room; i += kLanes) {
-      const Vec3Lanes p = load({x, y, z}, i) - a, away = p - axis * clamped(dot(p, axis) * inverse);
+      const Vec3Lanes away = away_from(core, load({x, y, z}, i));
       const Lanes d2 = dot(away, away);
       store(d2, distance2 + i);
       store(-dot(away, load({dx, dy, dz}, i)) / sqrt(d2), approach + i);
