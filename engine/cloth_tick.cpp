@@ -103,7 +103,7 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
   std::uint32_t n = t.cloth.substeps_wanted = t.settings.substeps;
   if (n == 0) {
     const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
-    const float longest = (implicit ? 4.0f : 1.0f) * t.world.def.max_substep;
+    const float longest = (implicit ? 3.0f : 1.0f) * t.world.def.max_substep;
     // The small allowance keeps 1/60 s at 6 steps of 1/360 s despite rounding.
     const double wanted = std::ceil(static_cast<double>(dt) / static_cast<double>(longest) - 1e-3);
     n = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSubsteps)));

@@ -185,7 +185,7 @@ enum {
   /* Default. Symplectic Euler with each edge solved in turn (Macklin et al., "Small Steps", 2019): as cheap, stable at
    * any stiffness, and then softer than asked; its order is not measured. For games. */
   PLEAT_INTEGRATOR_PROJECTED = 3,
-  /* All edges solved together (Baraff and Witkin, 1998) in substeps of four times the length: order 1, stable at any
+  /* All edges solved together (Baraff and Witkin, 1998) in substeps of three times the length: order 1, stable at any
    * stiffness and true to it at rest, damps motion of periods below a few substeps. For stiff fabric without the strain
    * limit; 256 particles cost ten times as much as PROJECTED. */
   PLEAT_INTEGRATOR_IMPLICIT_EULER = 4
