@@ -39,6 +39,14 @@ void watch_settling(ClothTick& t) {
   t.cloth.settling = loose ? t.cloth.settling - t.frame_dt : 0.0f;
 }
 
+/// Passes of strain limit and contact in each substep. What carries a pull through deep cloth is all passes of a tick:
+/// where there are more substeps than the cloth's motion wants, because it is stiff, each needs fewer.
+std::uint32_t sweeps_for(const ClothTick& t) {
+  const std::uint32_t deep = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
+  const std::uint32_t wanted = std::min(t.cloth.substeps_wanted, t.substeps);
+  return std::max(t.settings.sweeps, (deep * wanted + t.substeps - 1) / t.substeps);
+}
+
 void run_substep(ClothTick& t) {
   const std::size_t n = t.garment.particle_count;
   run_phase(t, Phase::kSubstepBegin);
@@ -53,8 +61,7 @@ void run_substep(ClothTick& t) {
   copy(t.predicted, t.position, n);
   t.worker.contact_count = 0;
   run_phase(t, Phase::kContact);
-  const std::uint32_t sweeps = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
-  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) run_phase(t, Phase::kSweep);
+  for (t.sweeps_left = sweeps_for(t); t.sweeps_left != 0; --t.sweeps_left) run_phase(t, Phase::kSweep);
   run_phase(t, Phase::kSubstepEnd);
   if (t.cloth.settling > 0.0f) stop(t);
 }
@@ -124,6 +131,7 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
 
 void run_substeps(ClothTick& t, std::uint32_t n) {
   const float dt = t.frame_dt;
+  t.substeps = n;
   t.dt = dt / static_cast<float>(n);
   const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
   t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable_step(t).room(t.dt);

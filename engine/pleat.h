@@ -216,7 +216,7 @@ typedef struct pleat_cloth_settings {
                           shorter steps to be stable; at most 64. Where that is not enough the stiffest edges act
                           softer: see stiffness_lowered */
   uint32_t sweeps;     /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
-                          farthest particle; default 3, 1..64 */
+                          farthest particle, fewer where stiffness asks for more substeps; default 3, 1..64 */
   float density;       /* kg/m2; default 0.2 */
   float stiffness; /* k of eq (1), N/m; default 310. Holds against slight compression; the strain limit holds the length
                     */

@@ -1,4 +1,5 @@
 // Rows from the predicted position to the end of a substep: contact, strain limit, velocities, the guard.
+#include "components/tethers.h"
 #include "engine/schedule_row.h"
 #include "engine/sleep.h"
 #include "systems/elastic_projection.h"
@@ -27,14 +28,23 @@
 namespace pleat {
 namespace {
 
+constexpr float kOverRelaxation = 1.6f;  // with 1.8 drapes at rest tremble more
+constexpr std::uint32_t kExactSweeps = 3;
+constexpr std::uint32_t kDeep = 2 * kSweepReach;  // edges; a sheet of half of that trembles between limbs that cross
 #ifdef PLEAT_WITH_COLLISION
 constexpr float kCreepSpeed = 0.02f;  // m/s, of cloth that friction holds while the strain limit pulls at it
 #endif
+
+/// In deep cloth all passes but a substep's last ones pull too far, so that fewer are needed; those put that right.
+float relaxation_of(const ClothTick& t) {
+  return t.garment.depth >= kDeep && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
+}
 
 void limit_stretch(ClothTick& t) {
   run(StretchConstraint{.garment = &t.garment,
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
+                        .relaxation = relaxation_of(t),
                         .position = t.position,
                         .packed = t.worker.packed.position.data()},
       t.worker.stats);

@@ -19,6 +19,11 @@
 namespace pleat {
 namespace {
 
+/// Of backward Euler's damping, what hinges get from `projected`, whose edges are as good as implicit. Together with
+/// the stiffest bending that StableStep lets through it is just what a step carries.
+constexpr float kStepDamping = 0.5f;
+
+bool projected(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_PROJECTED; }
 bool runge_kutta(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4; }
 bool implicit(const pleat_cloth_settings& s) { return s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER; }
 
@@ -74,7 +79,8 @@ constexpr Row kRows[] = {
                         .dt = t.dt,
                         .packed = &t.worker.packed,
                         .scratch = &t.worker.hinge_scratch,
-                        .force = t.force});
+                        .force = t.force,
+                        .step_damping = projected(t.settings) ? kStepDamping : 0.0f});
      }},
     {Phase::kStage, "edge_damping",
      [](const World&, const ClothRecord& c) { return c.settings.edge_damping > 0.0f ? kNeeded : "edge_damping is 0"; },

@@ -16,8 +16,8 @@ PLEAT_KERNEL Lanes angle_between(const Lanes& theta, const Lanes& rest) {
   return d > kPi ? d - 2.0f * kPi : d < -kPi ? d + 2.0f * kPi : d;
 }
 
-PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_rate, float bound, HingeBlock& out,
-                       float* turned) {
+PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_rate, float bound, float step_damping,
+                       HingeBlock& out, float* turned) {
   const Garment& g = *in.garment;
   Vec4Lanes x[4], v[4];
   for (std::size_t k = 0; k < 4; ++k) {
@@ -47,7 +47,8 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
   const Lanes highest = bound * inverse, stiffness = in.stiffness * load(g.hinge_bound.data() + begin);
   out.softness = one;
   if (any(stiffness > highest)) out.softness = stiffness > highest ? sqrt(highest / stiffness) : one;
-  out.damping = safe_rate * inverse * speed;
+  const Lanes stepped = min(step_damping * stiffness, (0.2f / in.dt) * inverse);
+  out.damping = max(safe_rate * inverse, stepped) * speed;
   for (std::size_t k = 0; k < 4; ++k) out.gradient[k] = gradient[k] * here;
   store(here * (out.softness * angle_between(theta, load(g.hinge_rest_angle.data() + begin))), turned + begin);
 }
@@ -68,11 +69,12 @@ PLEAT_KERNEL void bend(const HingeBending& in, std::uint32_t begin, const float*
 /// Reads into the hinge columns' padding.
 PLEAT_KERNEL void bend_all(const HingeBending& in) {
   const float safe_rate = std::min(in.damping_rate, 0.2f / in.dt), bound = 0.2f / (in.dt * in.dt);
+  const float step_damping = in.step_damping * in.dt;
   const std::uint32_t hinges = in.garment->hinge_count;
   HingeBlock* blocks = in.scratch->blocks.data();
   float* turned = in.scratch->turn.data();
   for (std::uint32_t begin = 0; begin < hinges; begin += kLanes) {
-    turn(in, begin, safe_rate, bound, blocks[begin / kLanes], turned);
+    turn(in, begin, safe_rate, bound, step_damping, blocks[begin / kLanes], turned);
   }
   for (std::uint32_t begin = 0; begin < hinges; begin += kLanes) bend(in, begin, turned, blocks[begin / kLanes]);
 }
@@ -83,7 +85,7 @@ bool HingeBending::validate() const {
   return garment != nullptr && position.x != nullptr && velocity.x != nullptr && inverse_mass != nullptr &&
          packed != nullptr && packed->holds(garment->particle_count) && scratch != nullptr &&
          scratch->turn.size() >= garment->hinge_count && force.x != nullptr && stiffness >= 0.0f &&
-         damping_rate >= 0.0f && dt > 0.0f;
+         damping_rate >= 0.0f && dt > 0.0f && step_damping >= 0.0f;
 }
 
 void HingeBending::run(VectorSet set) const {

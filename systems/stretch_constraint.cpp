@@ -22,7 +22,7 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in) {
     const float wa = a.w, wb = b.w, weight = wa + wb;
     if (weight == 0.0f) continue;
     const float l = std::sqrt(l2);
-    const Vec3 pull = d * ((l - longest) / (l * weight));
+    const Vec3 pull = d * (in.relaxation * (l - longest) / (l * weight));
     a = {a.x + pull.x * wa, a.y + pull.y * wa, a.z + pull.z * wa, wa};
     b = {b.x - pull.x * wb, b.y - pull.y * wb, b.z - pull.z * wb, wb};
   }
@@ -32,7 +32,8 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in) {
 }  // namespace
 
 bool StretchConstraint::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && position.x != nullptr && limit >= 0.0f && packed != nullptr;
+  return garment != nullptr && inverse_mass != nullptr && position.x != nullptr && limit >= 0.0f && relaxation > 0.0f &&
+         relaxation < 2.0f && packed != nullptr;
 }
 
 void StretchConstraint::run(Stats& stats) const {

@@ -10,7 +10,8 @@
 namespace pleat {
 
 /// One pass over the edges, in order: pulls the ends of each over-long edge together along it.
-///   C = |x_j - x_i| - (1 + limit) L > 0:   x_i += w_i/(w_i + w_j) C u,   x_j -= w_j/(w_i + w_j) C u
+///   C = |x_j - x_i| - (1 + limit) L > 0:   x_i += w_i/(w_i + w_j) r C u,   x_j -= w_j/(w_i + w_j) r C u
+/// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are central
 /// and weighted by inverse mass, so momentum is kept except at pins.
 /// Reads:  garment edges; inverse_mass (P) 1/kg
@@ -19,7 +20,8 @@ namespace pleat {
 struct StretchConstraint {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
-  float limit = 0.0f;  // fraction of the rest length
+  float limit = 0.0f;       // fraction of the rest length
+  float relaxation = 1.0f;  // r, below 2
   Vec3View position;
   Vec4* packed = nullptr;  // (P)
 

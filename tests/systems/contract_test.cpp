@@ -62,7 +62,7 @@ void guard(Sheet& s) {
 }
 void stretch(Sheet& s) {
   Stats stats;
-  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, s.position, s.packed.position.data()}.run(stats);
+  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, 1.0f, s.position, s.packed.position.data()}.run(stats);
 }
 
 const Case kCases[] = {

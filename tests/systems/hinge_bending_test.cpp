@@ -174,6 +174,26 @@ TEST(HingeBending, DampingTakesEnergyAndNeverReverses) {
   }
 }
 
+TEST(HingeBending, StiffStepsAreDampedAtLeastAsBackwardEulerWould) {
+  const float dt = 1e-3f;
+  const auto power = [&](float rate, float step_damping) {  // of damping alone: the hinge is where it rests
+    Sheet sheet = hinge();
+    sheet.velocity.set(3, {0, 1, 0});
+    HingeBending bending = job(sheet, kStiffness, rate, dt);
+    bending.step_damping = step_damping;
+    bending.run();
+    return dot(wide(sheet.force[3]), wide(sheet.velocity[3]));
+  };
+  EXPECT_EQ(power(0.0f, 0.0f), 0.0);
+  // Backward Euler's force after a step is that of the angle it has turned by then: K v dt.
+  Sheet turned = hinge();
+  turned.position.add(3, {0, dt, 0});
+  job(turned, kStiffness, 0.0f, dt).run();
+  EXPECT_NEAR(power(0.0f, 1.0f) / static_cast<double>(turned.force[3].y), 1.0, 1e-3);
+  EXPECT_NEAR(power(0.0f, 0.5f) / power(0.0f, 1.0f), 0.5, 1e-5);
+  EXPECT_EQ(power(4.0f, 0.5f), power(4.0f, 0.0f));  // the larger of the two counts
+}
+
 TEST(HingeBending, IsSoftenedToWhatAStepCanCarry) {
   Sheet stiff = hinge(), stiffer = hinge();
   for (Sheet* sheet : {&stiff, &stiffer}) sheet->position.add(3, {0, 0.3f, 0});

@@ -38,6 +38,10 @@ TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.packed = nullptr;
   EXPECT_FALSE(bad.validate());
+  for (const float value : {0.0f, 2.0f, kNan}) {
+    bad = good, bad.relaxation = value;
+    EXPECT_FALSE(bad.validate());
+  }
   for (const float value : {-0.1f, kNan}) {
     bad = good, bad.limit = value;
     EXPECT_FALSE(bad.validate());
@@ -51,6 +55,22 @@ TEST(StretchConstraint, PassesConvergeToTheLimit) {
   for (int pass = 0; pass < 400; ++pass) job(sheet, 0.01f).run(stats);
   EXPECT_LT(worst_strain(sheet), 0.011f);
   EXPECT_EQ(stats.edges_skipped, 0u);
+}
+
+TEST(StretchConstraint, PullsThroughManyEdgesInFewerPassesWhenItPullsTooFar) {
+  const auto left = [](float relaxation) {
+    Sheet sheet(make_grid({.rows = 24, .columns = 4, .width = 0.3f, .depth = 2.3f}));
+    for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, sheet.position[i] * 1.1f);
+    Stats stats;
+    for (int pass = 0; pass < 60; ++pass) {
+      StretchConstraint constraint = job(sheet);
+      if (pass < 57) constraint.relaxation = relaxation;
+      constraint.run(stats);
+    }
+    return worst_strain(sheet);
+  };
+  EXPECT_GT(left(1.0f), 0.005f);
+  EXPECT_LT(left(1.6f), 0.5f * left(1.0f));
 }
 
 TEST(StretchConstraint, OverlongEdgeComesToTheLimitExactly) {
