@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "components/zigzag.h"
+
 namespace pleat {
 namespace {
 
@@ -42,6 +44,7 @@ struct FaceHinges {
   std::array<std::uint32_t, 3> hinge{};
   std::array<bool, 3> has{};
   std::array<Row, 3> turn{};
+  Vec3d x{}, y{};                 // axes of its plane
   std::array<double, 3> alone{};  // half of what the hinge has alone, |e|^2 / (A1 + A2)
 };
 
@@ -83,7 +86,7 @@ FaceHinges hinges_of(const Garment& g, std::uint32_t f, const std::vector<std::u
   FaceHinges face{.area = static_cast<double>(g.face_rest_area[f])};
   const Vec3d corner = at(g.face_particle[0][f]), side = at(g.face_particle[1][f]) - corner;
   const Vec3d normal = cross(side, at(g.face_particle[2][f]) - corner);
-  const Vec3d x = side * (1.0 / length(side)), y = cross(normal, x) * (1.0 / length(normal));
+  const Vec3d x = face.x = side * (1.0 / length(side)), y = face.y = cross(normal, x) * (1.0 / length(normal));
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t e = g.face_edge[k][f], h = face.hinge[k] = hinge_of_edge[e];
     if (h == kNone) continue;
@@ -96,6 +99,28 @@ FaceHinges hinges_of(const Garment& g, std::uint32_t f, const std::vector<std::u
     face.alone[k] = 0.5 * dot(edge, edge) / (face.area + static_cast<double>(g.face_rest_area[other]));
   }
   return face;
+}
+
+/// In the plane of unit axes x and y.
+Tensor in_space(const Row& row, const Vec3d& x, const Vec3d& y) {
+  const double root = std::sqrt(2.0), mixed = row[2] / root;
+  const Vec3d u = x * row[0] + y * mixed, v = y * row[1] + x * mixed;  // the columns' sum is x u^T + y v^T
+  return {x.x * u.x + y.x * v.x,          x.y * u.y + y.y * v.y,          x.z * u.z + y.z * v.z,
+          root * (x.y * u.z + y.y * v.z), root * (x.z * u.x + y.z * v.x), root * (x.x * u.y + y.x * v.y)};
+}
+
+BentFace bent(const FaceHinges& face) {
+  BentFace out{.hinge = face.hinge, .has = face.has};
+  for (double coupling = 1.0; !find_share(face, coupling, out.share); coupling *= 0.9) {
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    Row moment{};
+    for (std::size_t l = 0; l < 3; ++l) {
+      for (std::size_t c = 0; c < 3; ++c) moment[c] += out.share[k][l] * face.turn[l][c];
+    }
+    out.moment[k] = in_space(moment, face.x, face.y);
+  }
+  return out;
 }
 
 }  // namespace
@@ -113,22 +138,23 @@ void measure_hinges(Garment& g) {
     if (g.edge_face[1][e] != kNone) hinge_of_edge[e] = h++;
   }
 
+  std::vector<BentFace> faces(g.face_count);
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    if (g.face_rest_area[f] < kLeastArea) continue;
-    const FaceHinges face = hinges_of(g, f, hinge_of_edge);
-    Share share{};
-    for (double coupling = 1.0; !find_share(face, coupling, share); coupling *= 0.9) {
-    }
+    if (g.face_rest_area[f] >= kLeastArea) faces[f] = bent(hinges_of(g, f, hinge_of_edge));
+  }
+  const std::vector<double> factor = zigzag_factors(g, faces);
+  for (std::uint32_t f = 0; f < g.face_count; ++f) {
+    const BentFace& face = faces[f];
     for (std::size_t k = 0; k < 3; ++k) {
       if (!face.has[k]) continue;
       const std::uint32_t h = face.hinge[k];
-      g.hinge_shape[h] += static_cast<float>(share[k][k]);
-      for (const double c : share[k]) g.hinge_bound[h] += static_cast<float>(std::abs(c));
+      g.hinge_shape[h] += static_cast<float>(factor[f] * face.share[k][k]);
+      for (const double c : face.share[k]) g.hinge_bound[h] += static_cast<float>(factor[f] * std::abs(c));
       for (std::size_t l = 1; l < 3; ++l) {
         const std::size_t j = (k + l) % 3, slot = (g.edge_face[0][g.face_edge[k][f]] == f ? 0 : 2) + l - 1;
         if (!face.has[j]) continue;
         g.hinge_beside[slot][h] = face.hinge[j];
-        g.hinge_coupling[slot][h] = static_cast<float>(share[k][j]);
+        g.hinge_coupling[slot][h] = static_cast<float>(factor[f] * face.share[k][j]);
       }
     }
   }

@@ -16,11 +16,11 @@ namespace pleat {
 /// is that of a plate without Poisson effect, B A |K|^2 / 2: hinges are stiff by A (M M^T)^-1, summed over faces. So
 /// any constant curvature costs what it should on any mesh, borders are free, and turns of no curvature (M M^T has full
 /// rank) cost too. Hinges taken alone do so on equilateral triangles only; on squares with a diagonal, edges feel
-/// twist.
+/// twist. Where the mesh would then give way in a zigzag, faces are stiffer by as much as that takes (zigzag.h).
 ///
 /// Where a face and its neighbours have their six corners near one conic, turns do not tell curvature, and hinges would
 /// be stiff without bound: they are coupled less then, so that none is more than three times as stiff as it is alone.
-/// Cost: O(F), no allocation but the columns'. Throws std::bad_alloc.
+/// Cost: O(F). Throws std::bad_alloc.
 void measure_hinges(Garment& garment);
 
 }  // namespace pleat

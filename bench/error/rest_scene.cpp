@@ -20,7 +20,7 @@ constexpr std::array<Grid, 4> kSquares = {{{6, 6}, {8, 8}, {16, 16}, {32, 32}}};
 constexpr std::array<Grid, 4> kStrips = {{{3, 11}, {4, 17}, {8, 33}, {16, 65}}};  // with a line in the middle
 constexpr Grid kFineSquareGrid = {65, 65}, kFinestSquareGrid = {129, 129}, kFineStripGrid = {33, 129};
 // Where bending decides. Diagonals of one way bend as the elastica within a percent (error_test), alternating ones
-// zigzag and are a quarter too soft; but under tension they are a net that is stronger one way.
+// zigzag; but under tension those of one way are a net that is stronger one way.
 constexpr Grid kFineBendingGrid = {33, 129, true};
 constexpr std::array<Grid, 4> kBendingStrips = {{{3, 11, true}, {4, 17, true}, {8, 33, true}, {16, 65, true}}};
 
