@@ -65,6 +65,7 @@ struct MeshTest {
     std::uint32_t particle[3] = {};
     Vec3 x[3];
     Vec3 area, normal;
+    Box around;  // what may matter
     float area2 = 0.0f;
     std::array<Nearest, 3> nearest;
     std::array<Standing, kRowsPerFace> standing;
@@ -77,7 +78,9 @@ struct MeshTest {
       f.particle[c] = in.garment->face_particle[c][face];
       f.x[c] = in.position[f.particle[c]];
       f.nearest[c].distance2 = search * search;
+      f.around.include(f.x[c]);
     }
+    f.around = f.around.grown(search);
     const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
     f.area = cross(u, v);
     f.area2 = dot(f.area, f.area);
@@ -93,6 +96,7 @@ struct MeshTest {
   /// Measures what of the features lies within reach.
   void meet(Face& f, std::uint32_t t, std::uint32_t features) const {
     const MeshPose::Corners body = pose.corners(t);
+    if (!f.around.overlaps(body.box())) return;
     const float a = dot(body.a - f.x[0], f.normal), b = dot(body.b - f.x[0], f.normal),
                 c = dot(body.c - f.x[0], f.normal);
     const float height = std::max(std::min(std::min(a, b), c), -std::max(std::max(a, b), c));
@@ -115,8 +119,7 @@ struct MeshTest {
   }
 
   static void find_nearest(const Vec3& p, std::uint32_t t, const MeshPose::Corners& body, Nearest& nearest) {
-    const Box near = Box{p, p}.grown(std::sqrt(nearest.distance2));
-    if (!near.overlaps(body.box())) return;
+    if (body.box().distance2(p) > nearest.distance2) return;
     const Barycentrics at = closest_on_triangle(p, body.a, body.b, body.c);
     const Vec3 d = p - at.point(body.a, body.b, body.c);
     if (dot(d, d) < nearest.distance2) nearest = {dot(d, d), t, at};
