@@ -10,22 +10,24 @@ namespace pleat {
 
 /// What takes the place of (side.n) n in a PN edge or triangle; side: from the end with normal n to the other end, m.
 /// Beyond 75 degrees, cos alpha = 1/4, the tangent's length grows no further.
-inline Vec3 arc_bend(const Vec3& side, const Vec3& n) {
-  const Vec3 tangent = side - n * dot(side, n);
-  const float side2 = dot(side, side), cosine = std::sqrt(dot(tangent, tangent) / (side2 > 1e-30f ? side2 : 1e-30f));
-  const float bounded = cosine > 0.25f ? cosine : 0.25f;
+template <class T>
+inline Vec3T<T> arc_bend(const Vec3T<T>& side, const Vec3T<T>& n) {
+  const Vec3T<T> tangent = side - n * dot(side, n);
+  const T cosine = sqrt(dot(tangent, tangent) / max(dot(side, side), T{} + 1e-30f)), bounded = max(cosine, T{} + 0.25f);
   return side - tangent * (2.0f / (bounded * (1.0f + bounded)));  // cos^2(alpha/2) = (1 + cos alpha) / 2
 }
 
-inline PnEdge arc_edge(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb) {
-  PnEdge edge(a, b, na, nb);
+template <class T>
+inline PnEdgeT<T> arc_edge(const Vec3T<T>& a, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb) {
+  PnEdgeT<T> edge(a, b, na, nb);
   edge.u = arc_bend(edge.d, na);
   edge.v = arc_bend(-edge.d, nb);
   return edge;
 }
 
-inline PnTriangle arc_triangle(const Vec3 (&p)[3], const Vec3 (&n)[3]) {
-  PnTriangle triangle(p, n);
+template <class T>
+inline PnTriangleT<T> arc_triangle(const Vec3T<T> (&p)[3], const Vec3T<T> (&n)[3]) {
+  PnTriangleT<T> triangle(p, n);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = (k + 1) % 3;
     triangle.bend[2 * k] = arc_bend(p[l] - p[k], n[k]);

@@ -7,16 +7,17 @@
 #include <algorithm>
 #include <array>
 
-#include "components/column.h"
+#include "components/lanes.h"
 
 namespace pleat {
 
 /// What the cross product of two sides of a face is multiplied by at its corners 0, 1, 2; 1/m^2.
 /// side: rest lengths of the face's sides 0, 1, 2, m. With the mean edge length of the garment in the numerator a face
 /// at rest counts about as much as a unit vector.
-inline std::array<float, 3> corner_weights(const std::array<float, 3>& side, float mean_length) {
-  const std::array<float, 3> square{side[0] * side[0], side[1] * side[1], side[2] * side[2]};
-  const float scale = mean_length * mean_length / (square[0] * square[1] * square[2]);
+template <class T>
+inline std::array<T, 3> corner_weights(const std::array<T, 3>& side, float mean_length) {
+  const std::array<T, 3> square{side[0] * side[0], side[1] * side[1], side[2] * side[2]};
+  const T scale = mean_length * mean_length / (square[0] * square[1] * square[2]);
   return {scale * square[1], scale * square[2], scale * square[0]};  // the side across from the corner cancels
 }
 
@@ -30,15 +31,9 @@ inline void clear(Vec3View v, std::size_t count) {
 }
 
 /// Makes sums of face normals unit, or kAnyNormal where they have no direction.
-inline void normalize(Vec3View v, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float l = length(v[i]);
-    const bool good = l > 1e-12f;
-    const float scale = 1.0f / (good ? l : 1.0f);
-    const Vec3 unit = v[i] * scale;
-    v.x[i] = good ? unit.x : kAnyNormal.x;
-    v.y[i] = good ? unit.y : kAnyNormal.y;
-    v.z[i] = good ? unit.z : kAnyNormal.z;
+inline void normalize(Vec3View v, std::uint32_t count) {
+  for (std::uint32_t i = 0; i < count; i += kLanes) {
+    store(normalized_or(load(v, i), all(kAnyNormal)), v, i, std::min(kLanes, count - i));
   }
 }
 

@@ -25,6 +25,11 @@ inline Lanes sqrt(const Lanes& a) {
   for (std::size_t k = 0; k < kLanes; ++k) root[k] = std::sqrt(a[k]);
   return root;
 }
+/// The same of one float, so that a kernel's source can be for both.
+constexpr float min(float a, float b) { return a < b ? a : b; }
+constexpr float max(float a, float b) { return a > b ? a : b; }
+inline float sqrt(float a) { return std::sqrt(a); }
+
 inline bool any(const LaneMask& mask) {
   std::uint64_t pairs[kLanes / 2];
   std::memcpy(pairs, &mask, sizeof pairs);
@@ -40,6 +45,16 @@ inline float largest(const Lanes& a) {
 inline Lanes all(float value) { return Lanes{} + value; }
 inline Vec3Lanes all(const Vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
 
+inline Vec3Lanes choose(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lanes& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+/// Unit vectors, or `otherwise` where they are too short to have a direction.
+inline Vec3Lanes normalized_or(const Vec3Lanes& a, const Vec3Lanes& otherwise) {
+  const Lanes l = sqrt(dot(a, a));
+  const LaneMask good = l > 1e-12f;
+  return choose(good, a * (1.0f / (good ? l : all(1.0f))), otherwise);
+}
+
 /// Neighbours in a column, which ends on whole lanes.
 inline Lanes load(const float* from) {
   Lanes lanes;
@@ -52,6 +67,14 @@ inline Vec3Lanes load(ConstVec3View from, std::size_t begin) {
 inline void store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin) {
   store(lanes.x, to.x + begin), store(lanes.y, to.y + begin), store(lanes.z, to.z + begin);
+}
+/// The first `count` of them, where what comes next is somebody else's.
+inline void store(const Lanes& lanes, float* to, std::uint32_t count) {
+  if (count >= kLanes) return store(lanes, to);
+  for (std::uint32_t k = 0; k < count; ++k) to[k] = lanes[k];
+}
+inline void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin, std::uint32_t count) {
+  store(lanes.x, to.x + begin, count), store(lanes.y, to.y + begin, count), store(lanes.z, to.z + begin, count);
 }
 
 /// The largest value(lanes from i on) of count, or 0; lanes from `count` on do not count.
@@ -74,6 +97,19 @@ inline Vec3Lanes gather(ConstVec3View from, const std::uint32_t* index) {
   return {gather(from.x, index), gather(from.y, index), gather(from.z, index)};
 }
 
+/// to[index(k)] = lane k, for the first `count` lanes.
+template <class Index>
+inline void scatter(const Vec3Lanes& lanes, std::uint32_t count, const Vec3View& to, const Index& index) {
+  for (std::uint32_t k = 0; k < count; ++k) to.set(index(k), {lanes.x[k], lanes.y[k], lanes.z[k]});
+}
+/// to[index[k]] += lane k, one after the other, for the first `count` lanes.
+inline void scatter_add(const Lanes& lanes, const std::uint32_t* index, std::uint32_t count, float* to) {
+  for (std::uint32_t k = 0; k < count; ++k) to[index[k]] += lanes[k];
+}
+inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, const Vec3View& to) {
+  for (std::uint32_t k = 0; k < count; ++k) to.add(index[k], {lanes.x[k], lanes.y[k], lanes.z[k]});
+}
+
 /// Four lanes of four floats each, beside each other, become four times the same place of all.
 inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
   const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13);
@@ -94,19 +130,20 @@ inline Four load_four(const Vec4& from) {
   return four;
 }
 
+/// Eight vectors, and what each carries besides, with their components beside each other.
+inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
+  const Lanes places[4] = {vector.x, vector.y, vector.z, w};
+  Lanes pairs[4];
+  transpose(places, pairs);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Four low = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
+    const Four high = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
+    std::memcpy(to + k, &low, sizeof low), std::memcpy(to + k + 4, &high, sizeof high);
+  }
+}
 /// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
 inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    const Lanes places[4] = {load(from.x + i), load(from.y + i), load(from.z + i),
-                             w == nullptr ? Lanes{} : load(w + i)};
-    Lanes pairs[4];
-    transpose(places, pairs);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Four low = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
-      const Four high = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
-      std::memcpy(to + i + k, &low, sizeof low), std::memcpy(to + i + k + 4, &high, sizeof high);
-    }
-  }
+  for (std::size_t i = 0; i < count; i += kLanes) pack(load(from, i), w == nullptr ? Lanes{} : load(w + i), to + i);
 }
 inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
   for (std::size_t i = 0; i < count; i += kLanes) {

@@ -8,10 +8,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include "components/vec3.h"
+#include "components/lanes.h"
 
 namespace pleat {
 
@@ -21,18 +20,21 @@ constexpr float fold_shape(float t) {
   return x * x * (3.0f - 2.0f * x);
 }
 
-struct PnEdge {
-  Vec3 a, d, u, v;
+/// T: float, or lanes of as many edges.
+template <class T>
+struct PnEdgeT {
+  Vec3T<T> a, d, u, v;
 
   /// a, b: the ends, m; na, nb: their unit normals.
-  PnEdge(const Vec3& a_, const Vec3& b, const Vec3& na, const Vec3& nb)
+  PnEdgeT(const Vec3T<T>& a_, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb)
       : a(a_), d(b - a_), u(na * dot(d, na)), v(nb * -dot(d, nb)) {}
 
-  Vec3 point(float t) const { return a + d * t - (u * (1.0f - t) + v * t) * (t * (1.0f - t)); }
-  Vec3 middle() const { return a + d * 0.5f - (u + v) * 0.125f; }
+  Vec3T<T> point(float t) const { return a + d * t - (u * (1.0f - t) + v * t) * (t * (1.0f - t)); }
+  Vec3T<T> middle() const { return a + d * 0.5f - (u + v) * 0.125f; }
   /// Along the tangent in the middle; not unit.
-  Vec3 middle_tangent() const { return d * 4.0f + (u - v); }
+  Vec3T<T> middle_tangent() const { return d * 4.0f + (u - v); }
 };
+using PnEdge = PnEdgeT<float>;
 
 /// One point of the quadrature along an edge: derivatives of the above, with c' = d + u_rate u + v_rate v.
 struct PnEdgeNode {
@@ -60,70 +62,77 @@ inline constexpr std::array<PnEdgeNode, 8> kPnEdgeNodes = [] {
   }
   return nodes;
 }();
-using PnEdgeSpeeds = std::array<float, kPnEdgeNodes.size()>;  // |c'|^2 at the nodes, m^2
+template <class T>
+using PnEdgeSpeeds = std::array<T, kPnEdgeNodes.size()>;  // |c'|^2 at the nodes, m^2
 
 /// Squared speeds below this, m^2, are taken for it: a collapsed edge has a length and no direction.
 inline constexpr float kLeastSquaredSpeed = 1e-16f;
 
 /// |c'|^2 at each node, m^2.
-inline PnEdgeSpeeds squared_speeds(const PnEdge& c) {
-  const float dd = dot(c.d, c.d), uu = dot(c.u, c.u), vv = dot(c.v, c.v), uv = dot(c.u, c.v);
-  PnEdgeSpeeds speeds{};
+template <class T>
+inline PnEdgeSpeeds<T> squared_speeds(const PnEdgeT<T>& c) {
+  const T dd = dot(c.d, c.d), uu = dot(c.u, c.u), vv = dot(c.v, c.v), uv = dot(c.u, c.v);
+  PnEdgeSpeeds<T> speeds{};
   for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
-    const float s = dd + q.uu * uu + q.vv * vv + q.uv * uv;
-    speeds[i] = s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed;
+    speeds[i] = max(dd + q.uu * uu + q.vv * vv + q.uv * uv, T{} + kLeastSquaredSpeed);
   }
   return speeds;
 }
 
 /// Length of the curve without a fold, m. Every user gets the same bits for the same edge.
-inline float curve_length(const PnEdgeSpeeds& squared_speed) {
-  float l = 0.0f;
-  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) l += kPnEdgeNodes[i].weight * std::sqrt(squared_speed[i]);
+template <class T>
+inline T curve_length(const PnEdgeSpeeds<T>& squared_speed) {
+  T l{};
+  for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) l += kPnEdgeNodes[i].weight * sqrt(squared_speed[i]);
   return l;
 }
 
 /// The root of the mean squared speed, m: the length where the curve is run through evenly, else a little more.
-inline float mean_square_length(const PnEdge& c) {
-  return std::sqrt(dot(c.d, c.d) + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
+template <class T>
+inline T mean_square_length(const PnEdgeT<T>& c) {
+  return sqrt(dot(c.d, c.d) + (dot(c.u, c.u) + dot(c.v, c.v)) * (2.0f / 15.0f) + dot(c.u, c.v) * (1.0f / 15.0f));
 }
 
 /// The direction in which an edge folds: across the tangent of its middle, towards the sum of its ends' normals.
+template <class T>
 struct FoldDirection {
-  Vec3 n;         // unit
-  float defined;  // 0 .. 1: less than 1 where the normals nearly oppose each other, since n turns at random there
+  Vec3T<T> n;  // unit
+  T defined;   // 0 .. 1: less than 1 where the normals nearly oppose each other, since n turns at random there
 };
-inline FoldDirection fold_direction(const Vec3& tangent, const Vec3& normals) {
+template <class T>
+inline FoldDirection<T> fold_direction(const Vec3T<T>& tangent, const Vec3T<T>& normals) {
   constexpr float kTiny = 1e-20f;
-  const Vec3 across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
-  const float width2 = dot(across, across);
-  return {across * (1.0f / std::sqrt(width2 + kTiny)), 4.0f * width2 < 1.0f ? 4.0f * width2 : 1.0f};
+  const Vec3T<T> across = normals - tangent * (dot(normals, tangent) / (dot(tangent, tangent) + kTiny));
+  const T width2 = dot(across, across);
+  return {across * (1.0f / sqrt(width2 + kTiny)), min(4.0f * width2, T{} + 1.0f)};
 }
 
 /// The height of the fold that a short edge needs, for a straight edge exactly and for a curved one nearly.
+template <class T>
 struct FoldHeight {
-  float wanted;  // m, the length to reach: deficit^2 / (deficit + onset) closer to the target than without a fold, so
-                 // that the height of the fold sets in smoothly
-  float beta, gamma;  // of the closed form: length0 dL/dh at h = 0, and its curvature
-  float height;       // m, >= 0; 0 where the edge is not short
-  float most;         // m: a fold against the bulge would first have to press that in, at any deficit; it stops here
+  T wanted;       // m, the length to reach: deficit^2 / (deficit + onset) closer to the target than without a fold, so
+                  // that the height of the fold sets in smoothly
+  T beta, gamma;  // of the closed form: length0 dL/dh at h = 0, and its curvature
+  T height;       // m, >= 0; 0 where the edge is not short
+  T most;         // m: a fold against the bulge would first have to press that in, at any deficit; it stops here
 };
 
 /// length0: of the curve without a fold; target: what it should have, m; slope: dL/dh at h = 0, negative where the
 /// fold goes against the bulge. The closed form is  gamma h^2 + 2 beta h = gap,  gap = wanted^2 - length0^2.
-inline FoldHeight fold_height(float length0, float target, float slope) {
+template <class T>
+inline FoldHeight<T> fold_height(T length0, T target, T slope) {
   constexpr float kOnset = 0.0045f;  // deficit, over the length, at which half of it is closed
   constexpr float kMost = 2.0f;      // times the height over a straight edge
   constexpr float kTiny = 1e-20f;
-  const float deficit = target - length0 > 0.0f ? target - length0 : 0.0f;
-  const float closed = deficit * deficit / (deficit + kOnset * target + kTiny);
-  const float wanted = length0 + closed, gap = closed * (length0 + wanted);
-  const float beta = length0 * slope;
-  const float ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
-  const float root = std::sqrt(beta * beta + gamma * gap), most = kMost * std::sqrt(gap / gamma);
-  const float height = slope < 0.0f ? (root - beta) / gamma : gap / (beta + root + kTiny);
-  return {wanted, beta, gamma, height < most ? height : most, most};
+  const T deficit = max(target - length0, T{});
+  const T closed = deficit * deficit / (deficit + kOnset * target + kTiny);
+  const T wanted = length0 + closed, gap = closed * (length0 + wanted);
+  const T beta = length0 * slope;
+  const T ratio = length0 / (wanted + kTiny), gamma = 4.0f + ratio * (0.52f + 0.28f * ratio);
+  const T root = sqrt(beta * beta + gamma * gap), most = kMost * sqrt(gap / gamma);
+  const T height = slope < 0.0f ? (root - beta) / gamma : gap / (beta + root + kTiny);
+  return {wanted, beta, gamma, min(height, most), most};
 }
 
 }  // namespace pleat

@@ -24,26 +24,28 @@ constexpr std::array<float, 6> bend_weights(const float (&p)[3]) {
   return w;
 }
 
-struct PnTriangle {
-  Vec3 corner[3];
-  Vec3 bend[6];  // w_kl N_k and w_lk N_l of side k = 0, 1, 2
+/// T: float, or lanes of as many faces.
+template <class T>
+struct PnTriangleT {
+  Vec3T<T> corner[3];
+  Vec3T<T> bend[6];  // w_kl N_k and w_lk N_l of side k = 0, 1, 2
 
-  PnTriangle() = default;
-  PnTriangle(const Vec3 (&p)[3], const Vec3 (&n)[3]) : corner{p[0], p[1], p[2]} {
+  PnTriangleT(const Vec3T<T> (&p)[3], const Vec3T<T> (&n)[3]) : corner{p[0], p[1], p[2]} {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      const Vec3 side = p[l] - p[k];
+      const Vec3T<T> side = p[l] - p[k];
       bend[2 * k] = n[k] * dot(side, n[k]);
       bend[2 * k + 1] = n[l] * -dot(side, n[l]);
     }
   }
 
   /// The point at barycentrics p with their weights = bend_weights(p).
-  Vec3 point(const float (&p)[3], const std::array<float, 6>& weights) const {
-    Vec3 x = corner[0] * p[0] + corner[1] * p[1] + corner[2] * p[2];
+  Vec3T<T> point(const float (&p)[3], const std::array<float, 6>& weights) const {
+    Vec3T<T> x = corner[0] * p[0] + corner[1] * p[1] + corner[2] * p[2];
     for (std::size_t i = 0; i < 6; ++i) x -= bend[i] * weights[i];
     return x;
   }
 };
+using PnTriangle = PnTriangleT<float>;
 
 }  // namespace pleat

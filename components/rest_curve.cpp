@@ -16,7 +16,7 @@ void measure_rest_curves(Garment& garment) {
     const Vec3 a = position[g.face_particle[0][f]];
     const Vec3 face = cross(position[g.face_particle[1][f]] - a, position[g.face_particle[2][f]] - a);
     const auto side = [&](std::size_t s) { return g.edge_rest_length[g.face_edge[s][f]]; };
-    const std::array<float, 3> weight = corner_weights({side(0), side(1), side(2)}, g.mean_edge_length);
+    const std::array<float, 3> weight = corner_weights<float>({side(0), side(1), side(2)}, g.mean_edge_length);
     for (std::size_t k = 0; k < 3; ++k) normal.add(g.face_normal[k][f], face * weight[k]);
   }
   complete_normals(g, normal);

@@ -65,6 +65,8 @@ struct TessellationPattern {
   }
   const std::uint32_t* shaded_vertices() const { return twins.size() == 0 ? face_vertices.data() : face_shaded.data(); }
 
+  /// Of edge_vertex, as a fraction of the edge.
+  float along_edge(std::uint32_t step) const { return static_cast<float>(step) / static_cast<float>(segments); }
   std::uint32_t edge_vertex(std::uint32_t edge, std::uint32_t step) const {  // step 1 .. segments - 1
     return first_edge_vertex + edge * (segments - 1) + (step - 1);
   }

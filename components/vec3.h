@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 namespace pleat {
 
@@ -19,6 +20,10 @@ struct Vec3T {
   friend constexpr Vec3T operator-(const Vec3T& a) { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3T operator*(const Vec3T& a, T s) { return {a.x * s, a.y * s, a.z * s}; }
   friend constexpr Vec3T operator*(T s, const Vec3T& a) { return a * s; }
+  /// Lanes by a number that they share.
+  friend constexpr Vec3T operator*(const Vec3T& a, float s) requires(!std::is_same_v<T, float>) {
+    return {a.x * s, a.y * s, a.z * s};
+  }
   friend constexpr bool operator==(const Vec3T&, const Vec3T&) = default;
 };
 

@@ -73,8 +73,7 @@ constexpr Row kRows[] = {
        run(FoldSides{.garment = &t.garment,
                      .position = t.position,
                      .normal = t.normal,
-                     .choices = t.worker.fold_choices,
-                     .springs = t.worker.fold_springs,
+                     .choices = &t.worker.fold_choices,
                      .kept = t.frame_dt > 0.0f ? FoldSides::kept_after(t.frame_dt) : 0.0f,
                      .side = t.fold_side});
      }},

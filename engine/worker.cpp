@@ -25,8 +25,7 @@ void at_least(Column& column, std::size_t size) {
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   if (cloth.settings.surface != PLEAT_SURFACE_PLEAT || cloth.pattern() == nullptr) return;
-  at_least(worker.fold_choices, g.edge_count);
-  at_least(worker.fold_springs, (std::size_t{g.face_count} + kLanes - 1) / kLanes);
+  worker.fold_choices.make_room(g.edge_count, g.face_count);
   if (cloth.settings.fold_sweeps == 0) return;
   FoldScratch& scratch = worker.fold_scratch;
   at_least(scratch.middle, g.edge_count);

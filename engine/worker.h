@@ -23,10 +23,9 @@ struct Worker {
   CapsuleCandidateColumns capsule_candidates;
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
-  NearScratch near_scratch;         // empty unless cloth touches cloth
-  Column<FoldChoice> fold_choices;  // empty unless a cloth folds
-  Column<FoldSprings> fold_springs;
-  Vec3Column footprint;  // m, the drawn vertices on the flat coarse triangles
+  NearScratch near_scratch;  // empty unless cloth touches cloth
+  FoldChoices fold_choices;  // empty unless a cloth folds
+  Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
@@ -45,7 +44,6 @@ struct Worker {
         mesh_candidates(m),
         near_scratch(m),
         fold_choices(m),
-        fold_springs(m),
         footprint(m),
         clearance_planes(m),
         near_triangles(m),

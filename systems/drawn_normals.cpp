@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "components/base_normal.h"
-#include "components/vec3_block.h"
 #include "components/wide.h"
 
 namespace pleat {
@@ -18,27 +17,25 @@ void DrawnNormals::run() const {
     const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / vertices);
 
     clear(normal, pattern->shaded_count());
-    Vec3Block x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];  // a lane is a face
+    Vec3Lanes x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];  // a lane is a face
     for (std::uint32_t begin = 0; begin < faces; begin += kLanes) {
       const std::uint32_t count = std::min(kLanes, faces - begin);
       const std::uint32_t* drawn = pattern->face_vertices.data() + std::size_t{begin} * vertices;
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const std::uint32_t* own = drawn + std::size_t{std::min(lane, count - 1)} * vertices;
-        for (std::uint32_t v = 0; v < vertices; ++v) x[v].set(lane, position[own[v]]);
+      for (std::uint32_t v = 0; v < vertices; ++v) {
+        std::uint32_t index[kLanes];
+        for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[std::size_t{std::min(k, count - 1)} * vertices + v];
+        x[v] = gather(position, index);
       }
-      std::fill_n(n, vertices, Vec3Block{});
+      std::fill_n(n, vertices, Vec3Lanes{});
       for (std::size_t t = 0; t < triangle_indices; t += 3) {
-        const Vec3Block &a = x[triangles[t]], &b = x[triangles[t + 1]], &c = x[triangles[t + 2]];
-        Vec3Block area;
-        for (std::uint32_t lane = 0; lane < kLanes; ++lane) area.set(lane, cross(b[lane] - a[lane], c[lane] - a[lane]));
-        for (std::size_t k = 0; k < 3; ++k) {
-          Vec3Block& sum = n[triangles[t + k]];
-          for (std::uint32_t lane = 0; lane < kLanes; ++lane) sum.set(lane, sum[lane] + area[lane]);
-        }
+        const Vec3Lanes &a = x[triangles[t]], &b = x[triangles[t + 1]], &c = x[triangles[t + 2]];
+        const Vec3Lanes area = cross(b - a, c - a);
+        for (std::size_t k = 0; k < 3; ++k) n[triangles[t + k]] += area;
       }
+      const std::uint32_t* shaded = pattern->shaded_vertices() + std::size_t{begin} * vertices;
       for (std::uint32_t lane = 0; lane < count; ++lane) {
-        const std::uint32_t* own = pattern->shaded_vertices() + (std::size_t{begin} + lane) * vertices;
-        for (std::uint32_t v = 0; v < vertices; ++v) normal.add(own[v], n[v][lane]);
+        const std::uint32_t* own = shaded + std::size_t{lane} * vertices;
+        for (std::uint32_t v = 0; v < vertices; ++v) normal.add(own[v], {n[v].x[lane], n[v].y[lane], n[v].z[lane]});
       }
     }
     normalize(normal, pattern->shaded_count());

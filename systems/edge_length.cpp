@@ -15,69 +15,54 @@ constexpr float kPaperTolerance = 1e-3f;  // of the length; half of it is left t
 constexpr float kPaperStart = 1.4f;       // k of eq (6)
 constexpr int kMaxBisections = 64;
 
+template <class T>
 struct Fold {
-  Vec3 direction;
-  float height;
+  Vec3T<T> direction;
+  T height;
 };
 
-// Free of branches: the compiler runs it on several edges at once.
-inline Fold pleat_fold(const PnEdge& c, const Vec3& normals, float target, float chosen_side) {
-  const PnEdgeSpeeds speed2 = squared_speeds(c);
-  const float length0 = curve_length(speed2);
+PLEAT_KERNEL Fold<Lanes> pleat_fold(const PnEdgeT<Lanes>& c, const Vec3Lanes& normals, const Lanes& target,
+                                    const Lanes& chosen_side) {
+  const PnEdgeSpeeds<Lanes> speed2 = squared_speeds(c);
+  const Lanes length0 = curve_length<Lanes>(speed2);
 
   const auto [n, defined] = fold_direction(c.middle_tangent(), normals);
 
   // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
-  const float dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
-  PnEdgeSpeeds rise;
-  float slope = 0.0f;  // dL/dh at h = 0
+  const Lanes dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
+  PnEdgeSpeeds<Lanes> rise;
+  Lanes slope{};  // dL/dh at h = 0
   for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
     rise[i] = q.fold_rate * (dn + q.u_rate * un + q.v_rate * vn);
-    slope += q.weight * rise[i] / std::sqrt(speed2[i]);
+    slope += q.weight * rise[i] / sqrt(speed2[i]);
   }
-  const float side = chosen_side < 0.0f ? -1.0f : 1.0f;
+  const Lanes side = chosen_side < 0.0f ? all(-1.0f) : all(1.0f);
   slope *= side;
 
-  const FoldHeight start = fold_height(length0, target, slope);
-  float h = start.height;
-
-  float length_h = 0.0f;
+  const FoldHeight<Lanes> start = fold_height(length0, target, slope);
+  Lanes h = start.height, length_h{};
   for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
-    const float s = speed2[i] + h * (2.0f * side * rise[i] + h * q.fold_rate * q.fold_rate);
-    length_h += q.weight * std::sqrt(s > kLeastSquaredSpeed ? s : kLeastSquaredSpeed);
+    const Lanes s = speed2[i] + h * (2.0f * side * rise[i] + h * q.fold_rate * q.fold_rate);
+    length_h += q.weight * sqrt(max(s, all(kLeastSquaredSpeed)));
   }
-  const float slope_h = (start.beta + start.gamma * h) / start.wanted;  // of the closed form
-  h += (start.wanted - length_h) / (slope_h > 1e-3f ? slope_h : 1e-3f);
-  h = h < start.most ? h : start.most;
-  h = h > 0.0f ? h : 0.0f;
+  const Lanes slope_h = (start.beta + start.gamma * h) / start.wanted;  // of the closed form
+  h += (start.wanted - length_h) / max(slope_h, all(1e-3f));
+  h = max(min(h, start.most), Lanes{});
 
-  const float sure = chosen_side < 0.0f ? -chosen_side : chosen_side;
-  const float height = side * (sure < kSureSide ? sure * (1.0f / kSureSide) : 1.0f) * defined * h;
-  return {n, target > length0 ? height : 0.0f};
+  const Lanes sure = min(abs(chosen_side) * (1.0f / kSureSide), all(1.0f));
+  return {n, target > length0 ? side * sure * defined * h : Lanes{}};
 }
 
-void run_pleat(const EdgeLength& s) {
+PLEAT_KERNEL void run_pleat(const EdgeLength& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    EdgeBlock block;
-    Vec3Block direction;
-    float side[kLanes], height[kLanes];
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      side[lane] = s.side[begin + std::min(lane, count - 1)];
-    }
-    block.gather(g, s.position, s.normal, begin, count);
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const Fold fold = pleat_fold(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane], side[lane]);
-      direction.set(lane, fold.direction);
-      height[lane] = fold.height;
-    }
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      s.fold.set(begin + lane, direction[lane]);
-      s.fold_height[begin + lane] = height[lane];
-    }
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - e);
+    const EdgeBlock block(g, s.position, s.normal, e);
+    const Fold<Lanes> fold = pleat_fold(block.curve(), block.na + block.nb, block.target, load(s.side + e));
+    store(fold.direction, s.fold, e, count);
+    store(fold.height, s.fold_height + e, count);
   }
 }
 
@@ -101,7 +86,7 @@ float chord_length(const PnEdge& c) {
   return (4.0f * fine - coarse) / 3.0f;
 }
 
-Fold paper_fold(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb, float target) {
+Fold<float> paper_fold(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb, float target) {
   const Vec3 n = quadratic_normal(b - a, na, nb), middle = PnEdge(a, b, na, nb).middle();
   const auto missing = [&](float h) {
     const Vec3 p = middle + n * h;
@@ -125,7 +110,7 @@ void run_paper(const EdgeLength& s) {
   const Garment& g = *s.garment;
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-    const Fold fold = paper_fold(s.position[i], s.position[j], s.normal[i], s.normal[j], g.edge_rest_length[e]);
+    const Fold<float> fold = paper_fold(s.position[i], s.position[j], s.normal[i], s.normal[j], g.edge_rest_length[e]);
     s.fold.set(e, fold.direction);
     s.fold_height[e] = fold.height;
   }

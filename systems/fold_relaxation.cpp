@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/edge_block.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -15,95 +16,73 @@ constexpr float kSureHeight = 0.02f;  // of the edge's length: a fold half as fr
 constexpr float kTiny = 1e-20f;
 
 /// Against the gradient of 1/2 (length - wanted)^2 for the end that `to_other` starts from.
-inline Vec3 pull(const Vec3& to_other, float wanted) {
-  const float length = std::sqrt(dot(to_other, to_other) + kTiny);
-  return to_other * (1.0f - wanted / length);
+PLEAT_KERNEL Vec3Lanes pull(const Vec3Lanes& to_other, const Lanes& wanted) {
+  return to_other * (1.0f - wanted / sqrt(dot(to_other, to_other) + kTiny));
 }
 
-void begin(const FoldRelaxation& s) {
-  const Garment& g = *s.garment;
-  for (std::uint32_t first = 0; first < g.edge_count; first += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - first);
-    EdgeBlock block;
-    block.gather(g, s.position, s.normal, first, count);
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t e = first + lane;
-      const Vec3 middle = block.curve(lane).middle() + s.fold[e] * s.fold_height[e];
-      const float sure = kSureHeight * block.target[lane], h2 = s.fold_height[e] * s.fold_height[e];
-      s.scratch.middle.set(e, middle);
-      s.scratch.pull.set(e, {});
-      s.scratch.half_length[e] = 0.5f * (length(middle - block.a[lane]) + length(middle - block.b[lane]));
-      s.scratch.freedom[e] = h2 / (h2 + sure * sure + kTiny);
-    }
+PLEAT_KERNEL Vec3Lanes folds(const FoldRelaxation& s, std::uint32_t e) {
+  return load(s.fold, e) * load(s.fold_height + e);
+}
+
+PLEAT_KERNEL void begin(const FoldRelaxation& s) {
+  const auto length = [](const Vec3Lanes& v) { return sqrt(dot(v, v)); };
+  for (std::uint32_t e = 0; e < s.garment->edge_count; e += kLanes) {
+    const EdgeBlock block(*s.garment, s.position, s.normal, e);
+    const Vec3Lanes middle = block.curve().middle() + folds(s, e);
+    const Lanes sure = kSureHeight * block.target, height = load(s.fold_height + e), h2 = height * height;
+    store(middle, s.scratch.middle, e);
+    store(Vec3Lanes{}, s.scratch.pull, e);
+    store(0.5f * (length(middle - block.a) + length(middle - block.b)), s.scratch.half_length + e);
+    store(h2 / (h2 + sure * sure + kTiny), s.scratch.freedom + e);
   }
 }
 
 /// What is left of the last step, and the pulls along the halves of each edge.
-void pull_halves(const FoldRelaxation& s) {
+PLEAT_KERNEL void pull_halves(const FoldRelaxation& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    Vec3Block a, b, middle, sum;
-    float half[kLanes];
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t e = begin + std::min(lane, count - 1);
-      a.set(lane, s.position[g.edge_particle[0][e]]), b.set(lane, s.position[g.edge_particle[1][e]]);
-      middle.set(lane, s.scratch.middle[e]), half[lane] = s.scratch.half_length[e];
-    }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      sum.set(lane, pull(a[lane] - middle[lane], half[lane]) + pull(b[lane] - middle[lane], half[lane]));
-    }
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      s.scratch.pull.set(begin + lane, s.scratch.pull[begin + lane] * kMomentum + sum[lane]);
-    }
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const Vec3Lanes a = gather(s.position, g.edge_particle[0].data() + e),
+                    b = gather(s.position, g.edge_particle[1].data() + e), middle = load(s.scratch.middle, e);
+    const Lanes half = load(s.scratch.half_length + e);
+    store(load(s.scratch.pull, e) * kMomentum + (pull(a - middle, half) + pull(b - middle, half)), s.scratch.pull, e);
   }
 }
 
-void pull_in_faces(const FoldRelaxation& s) {
+PLEAT_KERNEL void pull_in_faces(const FoldRelaxation& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    Vec3Block middle[3], sum[3];
-    float rest[3][kLanes];
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const std::uint32_t e = g.face_edge[k][begin + std::min(lane, count - 1)];
-        middle[k].set(lane, s.scratch.middle[e]);
-        rest[k][lane] = g.edge_rest_curve_length[e];
-      }
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - f);
+    Vec3Lanes middle[3];
+    Lanes rest[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle[k] = gather(s.scratch.middle, g.face_edge[k].data() + f);
+      rest[k] = gather(g.edge_rest_curve_length.data(), g.face_edge[k].data() + f);
     }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const Vec3 a = middle[0][lane], b = middle[1][lane], c = middle[2][lane];
-      const Vec3 ab = pull(b - a, 0.5f * rest[2][lane]), bc = pull(c - b, 0.5f * rest[0][lane]),
-                 ca = pull(a - c, 0.5f * rest[1][lane]);
-      sum[0].set(lane, ab - ca), sum[1].set(lane, bc - ab), sum[2].set(lane, ca - bc);
-    }
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      for (std::uint32_t lane = 0; lane < count; ++lane) s.scratch.pull.add(g.face_edge[k][begin + lane], sum[k][lane]);
-    }
+    const auto& [a, b, c] = middle;
+    const Vec3Lanes ab = pull(b - a, 0.5f * rest[2]), bc = pull(c - b, 0.5f * rest[0]),
+                    ca = pull(a - c, 0.5f * rest[1]);
+    const Vec3Lanes sum[3] = {ab - ca, bc - ab, ca - bc};
+    for (std::size_t k = 0; k < 3; ++k) scatter_add(sum[k], g.face_edge[k].data() + f, count, s.scratch.pull);
   }
 }
 
-void step(const FoldRelaxation& s) {
+PLEAT_KERNEL void step(const FoldRelaxation& s) {
   const FoldScratchView& scratch = s.scratch;
-  for (std::uint32_t e = 0; e < s.garment->edge_count; ++e) {
-    scratch.middle.add(e, scratch.pull[e] * (kStep * scratch.freedom[e]));
+  for (std::uint32_t e = 0; e < s.garment->edge_count; e += kLanes) {
+    const Vec3Lanes moved = load(scratch.pull, e) * (kStep * load(scratch.freedom + e));
+    store(load(scratch.middle, e) + moved, scratch.middle, e);
   }
 }
 
-void finish(const FoldRelaxation& s) {
-  const Garment& g = *s.garment;
-  for (std::uint32_t first = 0; first < g.edge_count; first += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - first);
-    EdgeBlock block;
-    block.gather(g, s.position, s.normal, first, count);
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t e = first + lane;
-      if (s.scratch.freedom[e] == 0.0f) continue;
-      const Vec3 moved = s.scratch.middle[e] - block.curve(lane).middle();
-      s.fold_height[e] = length(moved);
-      s.fold.set(e, normalized_or(moved, s.fold[e]));
-    }
+PLEAT_KERNEL void finish(const FoldRelaxation& s) {
+  const std::uint32_t edges = s.garment->edge_count;
+  for (std::uint32_t e = 0; e < edges; e += kLanes) {
+    const EdgeBlock block(*s.garment, s.position, s.normal, e);
+    const Vec3Lanes moved = load(s.scratch.middle, e) - block.curve().middle(), was = load(s.fold, e);
+    const LaneMask free = load(s.scratch.freedom + e) != 0.0f;
+    const std::uint32_t count = std::min(kLanes, edges - e);
+    store(free ? sqrt(dot(moved, moved)) : load(s.fold_height + e), s.fold_height + e, count);
+    store(choose(free, normalized_or(moved, was), was), s.fold, e, count);
   }
 }
 
@@ -116,13 +95,15 @@ bool FoldRelaxation::validate() const {
 }
 
 void FoldRelaxation::run() const {
-  begin(*this);
-  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
-    pull_halves(*this);
-    pull_in_faces(*this);
-    step(*this);
-  }
-  finish(*this);
+  run_wide(widest_vectors(), [this] {
+    begin(*this);
+    for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+      pull_halves(*this);
+      pull_in_faces(*this);
+      step(*this);
+    }
+    finish(*this);
+  });
 }
 
 }  // namespace pleat

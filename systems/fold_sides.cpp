@@ -17,108 +17,105 @@ constexpr float kSideTime = 0.08f;  // s in which a fold goes most of its way to
 constexpr float kTiny = 1e-20f;
 
 /// -1 .. 1, smooth up to both ends.
-inline float saturate(float x) {
-  const float y = x < -1.0f ? -1.0f : x > 1.0f ? 1.0f : x;
+PLEAT_KERNEL Lanes saturate(const Lanes& x) {
+  const Lanes y = min(max(x, all(-1.0f)), all(1.0f));
   return y * (1.5f - 0.5f * y * y);
 }
 
-inline float height_at(float side, float up, float down) { return side * (side > 0.0f ? up : -down); }
-
-inline FoldChoice first_guess(const PnEdge& c, const Vec3& normals, float target) {
-  const auto [n, defined] = fold_direction(c.middle_tangent(), normals);
-  const float slope = -0.5f * dot(c.u + c.v, n) / (target + kTiny), length0 = mean_square_length(c);
-  const float up = defined * fold_height(length0, target, slope).height;
-  const float down = -defined * fold_height(length0, target, -slope).height;
-  const float side = saturate(slope * (1.0f / kSureSide));
-  const float bump = kBump * (down * down - up * up) / (target * target + kTiny);
-  return {c.middle(), n, up, down, side, height_at(side, up, down), bump, 0.0f};
+PLEAT_KERNEL Lanes height_at(const Lanes& side, const Lanes& up, const Lanes& down) {
+  return side * (side > 0.0f ? up : -down);
 }
 
-void guess(const FoldSides& s) {
+PLEAT_KERNEL void guess(const FoldSides& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    EdgeBlock block;
-    FoldChoice choice[kLanes];
-    block.gather(g, s.position, s.normal, begin, count);
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      choice[lane] = first_guess(block.curve(lane), block.na[lane] + block.nb[lane], block.target[lane]);
-    }
-    std::copy_n(choice, count, s.choices.begin() + begin);
+  FoldChoices& c = *s.choices;
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const EdgeBlock block(g, s.position, s.normal, e);
+    const PnEdgeT<Lanes> curve = block.curve();
+    const auto [n, defined] = fold_direction(curve.middle_tangent(), block.na + block.nb);
+    const Lanes length0 = mean_square_length(curve), slope = -0.5f * dot(curve.u + curve.v, n) / (block.target + kTiny);
+    const Lanes up = defined * fold_height(length0, block.target, slope).height;
+    const Lanes down = -defined * fold_height(length0, block.target, -slope).height;
+    const Lanes side = saturate(slope * (1.0f / kSureSide));
+    pack(curve.middle(), load(g.edge_rest_length.data() + e), c.middle.data() + e);
+    pack(n, Lanes{}, c.direction.data() + e);
+    store(up, c.up.data() + e), store(down, c.down.data() + e);
+    store(side, c.side.data() + e), store(height_at(side, up, down), c.height.data() + e);
+    store(kBump * (down * down - up * up) / (block.target * block.target + kTiny), c.bump.data() + e);
+    store(Lanes{}, c.gain.data() + e);
   }
 }
 
-void span_springs(const FoldSides& s) {
+PLEAT_KERNEL void span_springs(const FoldSides& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
-    FoldSprings& springs = s.springs[begin / kLanes];
-    Vec3Block middle[3], direction[3];
-    float rest[3][kLanes];
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t f = std::min(begin + lane, g.face_count - 1);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const FoldChoice& choice = s.choices[g.face_edge[k][f]];
-        middle[k].set(lane, choice.middle), direction[k].set(lane, choice.direction);
-        rest[k][lane] = g.edge_rest_length[g.face_edge[k][f]];
-      }
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    FoldSprings& springs = s.choices->springs[f / kLanes];
+    Vec4Lanes middle[3];
+    Vec3Lanes direction[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t* edge = g.face_edge[k].data() + f;
+      middle[k] = gather(s.choices->middle.data(), edge);
+      direction[k] = gather(s.choices->direction.data(), edge).vector;
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3, across = (k + 2) % 3;
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const float unit = 4.0f / (rest[across][lane] * rest[across][lane] + kTiny);
-        const Vec3 d = middle[k][lane] - middle[l][lane], m = direction[k][lane], n = direction[l][lane];
-        springs.stretch[k][lane] = dot(d, d) * unit - 1.0f;
-        springs.at_first[k][lane] = dot(d, m) * unit;
-        springs.at_second[k][lane] = dot(d, n) * unit;
-        springs.both[k][lane] = dot(m, n) * unit;
-        springs.unit[k][lane] = unit;
-      }
+      const Lanes unit = 4.0f / (middle[across].w * middle[across].w + kTiny);
+      const Vec3Lanes d = middle[k].vector - middle[l].vector;
+      springs.stretch[k] = dot(d, d) * unit - 1.0f;
+      springs.at_first[k] = dot(d, direction[k]) * unit;
+      springs.at_second[k] = dot(d, direction[l]) * unit;
+      springs.both[k] = dot(direction[k], direction[l]) * unit;
+      springs.unit[k] = unit;
     }
   }
 }
 
 /// How much more energy a spring has with its end at `down` than at `up`; base + 2 slope h + unit h^2 is its stretch.
-inline float difference(float base, float slope, float unit, float up, float down) {
-  const float at_up = base + up * (2.0f * slope + unit * up), at_down = base + down * (2.0f * slope + unit * down);
+PLEAT_KERNEL Lanes difference(const Lanes& base, const Lanes& slope, const Lanes& unit, const Lanes& up,
+                              const Lanes& down) {
+  const Lanes at_up = base + up * (2.0f * slope + unit * up), at_down = base + down * (2.0f * slope + unit * down);
   return at_down * at_down - at_up * at_up;
 }
 
-void ask_springs(const FoldSides& s) {
+PLEAT_KERNEL void ask_springs(const FoldSides& s) {
   const Garment& g = *s.garment;
-  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    const FoldSprings& springs = s.springs[begin / kLanes];
-    alignas(32) float height[3][kLanes], up[3][kLanes], down[3][kLanes], gain[3][kLanes] = {};
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t f = std::min(begin + lane, g.face_count - 1);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const FoldChoice& choice = s.choices[g.face_edge[k][f]];
-        height[k][lane] = choice.height, up[k][lane] = choice.up, down[k][lane] = choice.down;
-      }
+  FoldChoices& c = *s.choices;
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    const FoldSprings& springs = c.springs[f / kLanes];
+    Lanes height[3], up[3], down[3], gain[3]{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t* edge = g.face_edge[k].data() + f;
+      height[k] = gather(c.height.data(), edge), up[k] = gather(c.up.data(), edge);
+      down[k] = gather(c.down.data(), edge);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const float stretch = springs.stretch[k][lane], first = springs.at_first[k][lane],
-                    second = springs.at_second[k][lane], both = springs.both[k][lane], unit = springs.unit[k][lane];
-        const float h = height[k][lane], j = height[l][lane];
-        gain[k][lane] +=
-            difference(stretch + j * (unit * j - 2.0f * second), first - both * j, unit, up[k][lane], down[k][lane]);
-        gain[l][lane] +=
-            difference(stretch + h * (unit * h + 2.0f * first), -second - both * h, unit, up[l][lane], down[l][lane]);
-      }
+      const Lanes &stretch = springs.stretch[k], &first = springs.at_first[k], &second = springs.at_second[k],
+                  &both = springs.both[k], &unit = springs.unit[k], &h = height[k], &j = height[l];
+      gain[k] += difference(stretch + j * (unit * j - 2.0f * second), first - both * j, unit, up[k], down[k]);
+      gain[l] += difference(stretch + h * (unit * h + 2.0f * first), -second - both * h, unit, up[l], down[l]);
     }
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      for (std::size_t k = 0; k < 3; ++k) s.choices[g.face_edge[k][begin + lane]].gain += gain[k][lane];
-    }
+    const std::uint32_t count = std::min(kLanes, g.face_count - f);
+    for (std::size_t k = 0; k < 3; ++k) scatter_add(gain[k], g.face_edge[k].data() + f, count, c.gain.data());
   }
 }
 
-void decide(const FoldSides& s) {
-  for (FoldChoice& c : s.choices.first(s.garment->edge_count)) {
-    c.side = 0.5f * (c.side + saturate((c.gain + c.bump) * (1.0f / kDecisive)));
-    c.height = height_at(c.side, c.up, c.down);
-    c.gain = 0.0f;
+PLEAT_KERNEL void decide(const FoldSides& s) {
+  FoldChoices& c = *s.choices;
+  for (std::uint32_t e = 0; e < s.garment->edge_count; e += kLanes) {
+    const Lanes energy = load(c.gain.data() + e) + load(c.bump.data() + e);
+    const Lanes side = 0.5f * (load(c.side.data() + e) + saturate(energy * (1.0f / kDecisive)));
+    store(side, c.side.data() + e);
+    store(height_at(side, load(c.up.data() + e), load(c.down.data() + e)), c.height.data() + e);
+    store(Lanes{}, c.gain.data() + e);
+  }
+}
+
+/// The drawn side follows the choice.
+PLEAT_KERNEL void follow(const FoldSides& s) {
+  for (std::uint32_t e = 0; e < s.garment->edge_count; ++e) {
+    const float chosen = s.choices->side[e];
+    s.side[e] = s.kept > 0.0f ? chosen + s.kept * (s.side[e] - chosen) : chosen;
   }
 }
 
@@ -127,8 +124,8 @@ void decide(const FoldSides& s) {
 float FoldSides::kept_after(float dt) { return std::exp(dt * (-1.0f / kSideTime)); }
 
 bool FoldSides::validate() const {
-  return garment != nullptr && position.x != nullptr && normal.x != nullptr && side != nullptr &&
-         choices.size() >= garment->edge_count && springs.size() * kLanes >= garment->face_count;
+  return garment != nullptr && position.x != nullptr && normal.x != nullptr && side != nullptr && choices != nullptr &&
+         choices->holds(garment->edge_count, garment->face_count);
 }
 
 void FoldSides::run() const {
@@ -139,9 +136,7 @@ void FoldSides::run() const {
       ask_springs(*this);
       decide(*this);
     }
-    for (std::uint32_t e = 0; e < garment->edge_count; ++e) {
-      side[e] = kept > 0.0f ? choices[e].side + kept * (side[e] - choices[e].side) : choices[e].side;
-    }
+    follow(*this);
   });
 }
 

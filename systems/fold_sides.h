@@ -1,8 +1,6 @@
 // To which side each short edge folds.
 #pragma once
 
-#include <span>
-
 #include "components/fold_choice.h"
 #include "components/garment.h"
 
@@ -16,14 +14,13 @@ namespace pleat {
 /// in time, through no fold at all, so that nothing pops.
 /// Reads:  garment faces, edges and rest lengths; position (P) m; normal (N) unit
 /// Writes: side (E), -1 .. 1: against, undecided or along the sum of the normals at the edge's ends; read as well, as
-///         the last frame left it; choices (E) and springs (F / kLanes, rounded up), scratch
+///         the last frame left it; choices, scratch
 /// Cost:   O(E + F), no allocation. Errors: none.
 struct FoldSides {
   const Garment* garment = nullptr;
   ConstVec3View position;
   ConstVec3View normal;
-  std::span<FoldChoice> choices;
-  std::span<FoldSprings> springs;
+  FoldChoices* choices = nullptr;
   float kept = 0.0f;  // share of the last frame's side that stays, 0 .. 1; 0 where there was no last frame
   float* side = nullptr;
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "components/vec3_block.h"
+#include "components/lanes.h"
+#include "components/wide.h"
 
 namespace pleat {
 namespace {
@@ -16,48 +17,29 @@ struct Law {
   float stiffness, damping;  // of the spring by velocity and step: w^2 dt, 1/s; 2 w, 1/s
 };
 
-/// Some particles side by side.
-struct Block {
-  Vec3Block velocity, held, pull;
-  float mass[kLanes];
-};
-
-PLEAT_KERNEL Vec3 shortened(const Vec3& v, float longest) {
-  const float l = length(v);
-  return v * (l > longest ? longest / l : 1.0f);
-}
-
-PLEAT_KERNEL void hold(Block& block, const Law& law) {
-  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-    const Vec3 relative = block.velocity[lane] - law.carrier, v = shortened(relative, law.fast);
-    const float slip2 = dot(relative, relative) * (1.0f / (kStickSpeed * kStickSpeed));
-    const float most = law.deceleration * (1.0f + 1.0f / (1.0f + slip2));
-    const Vec3 spring = shortened(block.held[lane] + v * law.stiffness, most);
-    block.held.set(lane, spring);
-    block.pull.set(lane, shortened(spring + v * law.damping, most) * -block.mass[lane]);
-  }
+PLEAT_KERNEL Vec3Lanes shortened(const Vec3Lanes& v, const Lanes& longest) {
+  const Lanes l = sqrt(dot(v, v));
+  return v * (l > longest ? longest / l : all(1.0f));
 }
 
 /// Reads into the columns' padding, which has no mass, but leaves it alone. Returns the sum of what pulls.
 PLEAT_KERNEL Vec3 hold_all(const InnerFriction& in, const Law& law) {
-  Vec3Block sum{};
-  for (std::uint32_t begin = 0; begin < in.garment->particle_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, in.garment->particle_count - begin);
-    Block block;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      block.velocity.set(lane, in.velocity[begin + lane]);
-      block.held.set(lane, in.held[begin + lane]);
-      block.mass[lane] = in.mass[begin + lane];
-    }
-    hold(block, law);
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      in.held.set(begin + lane, block.held[lane]);
-      in.force.add(begin + lane, block.pull[lane]);
-      sum.set(lane, sum[lane] + block.pull[lane]);
-    }
+  const std::uint32_t particles = in.garment->particle_count;
+  Vec3Lanes sum{};
+  for (std::uint32_t i = 0; i < particles; i += kLanes) {
+    const std::uint32_t count = std::min(kLanes, particles - i);
+    const Vec3Lanes relative = load(in.velocity, i) - all(law.carrier), v = shortened(relative, all(law.fast));
+    const Lanes slip2 = dot(relative, relative) * (1.0f / (kStickSpeed * kStickSpeed));
+    const Lanes most = law.deceleration * (1.0f + 1.0f / (1.0f + slip2));
+    const Vec3Lanes held = shortened(load(ConstVec3View(in.held), i) + v * law.stiffness, most);
+    const Vec3Lanes pull = shortened(held + v * law.damping, most) * -load(in.mass + i);
+    store(held, in.held, i, count);
+    store(load(ConstVec3View(in.force), i) + pull, in.force, i, count);
+    constexpr Lanes kPlace{0, 1, 2, 3, 4, 5, 6, 7};
+    sum += choose(kPlace < static_cast<float>(count), pull, Vec3Lanes{});
   }
   Vec3 total;
-  for (std::uint32_t lane = 0; lane < kLanes; ++lane) total += sum[lane];
+  for (std::uint32_t k = 0; k < kLanes; ++k) total += Vec3{sum.x[k], sum.y[k], sum.z[k]};
   return total;
 }
 

@@ -3,29 +3,33 @@
 #include <algorithm>
 
 #include "components/arc_pn.h"
+#include "components/edge_block.h"
 #include "components/projected_triangle.h"
-#include "components/vec3_block.h"
 #include "components/wide.h"
 
 namespace pleat {
 namespace {
 
-void draw_flat(const Tessellation& s) {
+PLEAT_KERNEL void draw_flat(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
-  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
-    const Vec3 a = s.position[g.edge_particle[0][e]], d = s.position[g.edge_particle[1][e]] - a;
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - e);
+    const Vec3Lanes a = gather(s.position, g.edge_particle[0].data() + e),
+                    d = gather(s.position, g.edge_particle[1].data() + e) - a;
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
-      s.drawn_position.set(pattern.edge_vertex(e, step), a + d * t);
+      scatter(a + d * pattern.along_edge(step), count, s.drawn_position,
+              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
     }
   }
-  for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    const Vec3 a = s.position[g.face_particle[0][f]], b = s.position[g.face_particle[1][f]],
-               c = s.position[g.face_particle[2][f]];
-    std::uint32_t vertex = pattern.face_vertex(f, 0);
-    for (const InnerPoint& q : pattern.inner) {
-      s.drawn_position.set(vertex++, a * q.face[0] + b * q.face[1] + c * q.face[2]);
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - f);
+    Vec3Lanes corner[3];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = gather(s.position, g.face_particle[k].data() + f);
+    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
+      const InnerPoint& q = pattern.inner[i];
+      scatter(corner[0] * q.face[0] + corner[1] * q.face[1] + corner[2] * q.face[2], count, s.drawn_position,
+              [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
     }
   }
 }
@@ -35,154 +39,121 @@ PnEdge pn_edge(const Tessellation& s, std::uint32_t e) {
   return {s.position[i], s.position[j], s.normal[i], s.normal[j]};
 }
 
-template <SurfaceMode mode>
-PnEdge curved_edge(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb) {
-  return mode == SurfaceMode::kArcPn ? arc_edge(a, b, na, nb) : PnEdge(a, b, na, nb);
+template <SurfaceMode mode, class T>
+PnEdgeT<T> curved_edge(const Vec3T<T>& a, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb) {
+  return mode == SurfaceMode::kArcPn ? arc_edge(a, b, na, nb) : PnEdgeT<T>(a, b, na, nb);
 }
 
 /// kPn, kArcPn, and with folds kPleat: the vertices on edges.
 template <SurfaceMode mode>
-void draw_curved_edges(const Tessellation& s) {
+PLEAT_KERNEL void draw_curved_edges(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
-  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    Vec3Block a, b, na, nb, moved{}, x;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t e = begin + std::min(lane, count - 1);
-      const std::uint32_t i = g.edge_particle[0][e], j = g.edge_particle[1][e];
-      a.set(lane, s.position[i]), na.set(lane, s.normal[g.edge_normal[0][e]]);
-      b.set(lane, s.position[j]), nb.set(lane, s.normal[g.edge_normal[1][e]]);
-      if constexpr (mode == SurfaceMode::kPleat) moved.set(lane, s.fold[e] * s.fold_height[e]);
-    }
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - e);
+    const EdgeBlock block(g, s.position, s.normal, e);
+    const PnEdgeT<Lanes> edge = curved_edge<mode>(block.a, block.b, block.na, block.nb);
+    Vec3Lanes moved{};
+    if constexpr (mode == SurfaceMode::kPleat) moved = load(s.fold, e) * load(s.fold_height + e);
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
-      const float share = fold_shape(t);
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const PnEdge edge = curved_edge<mode>(a[lane], b[lane], na[lane], nb[lane]);
-        x.set(lane, edge.point(t) + moved[lane] * share);
-      }
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
-      }
+      const float t = pattern.along_edge(step);
+      scatter(edge.point(t) + moved * fold_shape(t), count, s.drawn_position,
+              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
     }
   }
 }
 
 /// The sides of face f that are creases bend as the edges do, not as the face's own normals say.
 template <SurfaceMode mode>
-void bend_along_creases(const Tessellation& s, std::uint32_t f, std::uint32_t lane, Vec3Block (&bend)[6]) {
+void bend_along_creases(const Tessellation& s, std::uint32_t f, std::uint32_t lane, Vec3Lanes (&bend)[6]) {
   const Garment& g = *s.garment;
+  const auto set = [&](Vec3Lanes& lanes, const Vec3& v) {
+    lanes.x[lane] = v.x, lanes.y[lane] = v.y, lanes.z[lane] = v.z;
+  };
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t e = g.face_edge[k][f];
     if (!g.edge_is_crease[e]) continue;
     const std::size_t first = g.edge_particle[0][e] == g.face_particle[k][f] ? 0 : 1, last = 1 - first;
     const PnEdge side = curved_edge<mode>(s.position[g.edge_particle[first][e]], s.position[g.edge_particle[last][e]],
                                           s.normal[g.edge_normal[first][e]], s.normal[g.edge_normal[last][e]]);
-    bend[2 * k].set(lane, side.u), bend[2 * k + 1].set(lane, side.v);
+    set(bend[2 * k], side.u), set(bend[2 * k + 1], side.v);
   }
 }
 
 /// kPn, kArcPn, and with folds kPleat: the vertices inside faces.
 template <SurfaceMode mode>
-void draw_curved_faces(const Tessellation& s) {
+PLEAT_KERNEL void draw_curved_faces(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
-  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    Vec3Block corner[3], normal[3], bend[6], moved[3]{}, x;
-    bool any_fold = false;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t f = begin + std::min(lane, count - 1);
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        corner[k].set(lane, s.position[g.face_particle[k][f]]);
-        normal[k].set(lane, s.normal[g.face_normal[k][f]]);
-        if constexpr (mode == SurfaceMode::kPleat) {
-          const std::uint32_t e = g.face_edge[k][f];
-          if (s.fold_height[e] == 0.0f) continue;
-          moved[k].set(lane, s.fold[e] * s.fold_height[e]);
-          any_fold = true;
-        }
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - f);
+    Vec3Lanes corner[3], normal[3], moved[3]{};
+    LaneMask folds{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = gather(s.position, g.face_particle[k].data() + f);
+      normal[k] = gather(s.normal, g.face_normal[k].data() + f);
+      if constexpr (mode == SurfaceMode::kPleat) {
+        const Lanes height = gather(s.fold_height, g.face_edge[k].data() + f);
+        moved[k] = gather(s.fold, g.face_edge[k].data() + f) * height;
+        folds |= height != 0.0f;
       }
     }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const Vec3 p[3] = {corner[0][lane], corner[1][lane], corner[2][lane]};
-      const Vec3 n[3] = {normal[0][lane], normal[1][lane], normal[2][lane]};
-      const PnTriangle face = mode == SurfaceMode::kArcPn ? arc_triangle(p, n) : PnTriangle(p, n);
-      for (std::size_t i = 0; i < 6; ++i) bend[i].set(lane, face.bend[i]);
-    }
+    PnTriangleT<Lanes> face =
+        mode == SurfaceMode::kArcPn ? arc_triangle(corner, normal) : PnTriangleT<Lanes>(corner, normal);
     if (g.crease_count != 0) {
-      for (std::uint32_t lane = 0; lane < count; ++lane) bend_along_creases<mode>(s, begin + lane, lane, bend);
+      for (std::uint32_t lane = 0; lane < count; ++lane) bend_along_creases<mode>(s, f + lane, lane, face.bend);
     }
+    const bool any_fold = any(folds);
     for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
       const InnerPoint& q = pattern.inner[i];
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        PnTriangle face;
-        for (std::size_t k = 0; k < 3; ++k) face.corner[k] = corner[k][lane];
-        for (std::size_t k = 0; k < 6; ++k) face.bend[k] = bend[k][lane];
-        x.set(lane, face.point(q.face, q.bend));
-      }
-      if (any_fold) {
-        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-          x.set(lane, x[lane] + (moved[0][lane] * q.fold[0] + moved[1][lane] * q.fold[1] + moved[2][lane] * q.fold[2]));
-        }
-      }
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        s.drawn_position.set(pattern.face_vertex(begin + lane, i), x[lane]);
-      }
+      Vec3Lanes x = face.point(q.face, q.bend);
+      if (any_fold) x += moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2];
+      scatter(x, count, s.drawn_position, [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
     }
   }
 }
 
 template <SurfaceMode mode>
 void draw_curved(const Tessellation& s) {
-  draw_curved_edges<mode>(s);
-  draw_curved_faces<mode>(s);
+  run_wide(widest_vectors(), [&] {
+    draw_curved_edges<mode>(s);
+    draw_curved_faces<mode>(s);
+  });
 }
 
-using LiftedPoint = Vec3 (*)(const Vec3 (&)[3], const Vec3 (&)[3], const float (&)[3]);
+using LiftedPoint = Vec3Lanes (*)(const Vec3Lanes (&)[3], const Vec3Lanes (&)[3], const float (&)[3]);
 
 /// kPhong, kSpherigon.
 template <LiftedPoint point>
-void draw_lifted(const Tessellation& s) {
+PLEAT_KERNEL void lift(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
-  Vec3Block p[3], n[3], x;
-  const auto gather = [&](std::uint32_t lane, std::size_t corner, std::uint32_t i) {
-    p[corner].set(lane, s.position[i]), n[corner].set(lane, s.normal[i]);
+  Vec3Lanes p[3], n[3];
+  const auto gather_corner = [&](std::size_t corner, const std::uint32_t* index) {
+    p[corner] = gather(s.position, index), n[corner] = gather(s.normal, index);
   };
-  const auto lift = [&](const float(&weight)[3]) {
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      x.set(lane, point({p[0][lane], p[1][lane], p[2][lane]}, {n[0][lane], n[1][lane], n[2][lane]}, weight));
-    }
-  };
-  for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t e = begin + std::min(lane, count - 1);
-      for (std::size_t k = 0; k < 3; ++k) gather(lane, k, g.edge_particle[k % 2][e]);  // the third has weight 0
-    }
+  for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.edge_count - e);
+    for (std::size_t k = 0; k < 3; ++k) gather_corner(k, g.edge_particle[k % 2].data() + e);  // the third has weight 0
     for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      const float t = static_cast<float>(step) / static_cast<float>(pattern.segments);
-      lift({1.0f - t, t, 0.0f});
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        s.drawn_position.set(pattern.edge_vertex(begin + lane, step), x[lane]);
-      }
+      const float t = pattern.along_edge(step);
+      scatter(point(p, n, {1.0f - t, t, 0.0f}), count, s.drawn_position,
+              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
     }
   }
-  for (std::uint32_t begin = 0; begin < g.face_count; begin += kLanes) {
-    const std::uint32_t count = std::min(kLanes, g.face_count - begin);
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t f = begin + std::min(lane, count - 1);
-      for (std::size_t k = 0; k < 3; ++k) gather(lane, k, g.face_particle[k][f]);
-    }
+  for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
+    const std::uint32_t count = std::min(kLanes, g.face_count - f);
+    for (std::size_t k = 0; k < 3; ++k) gather_corner(k, g.face_particle[k].data() + f);
     for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
-      lift(pattern.inner[i].face);
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        s.drawn_position.set(pattern.face_vertex(begin + lane, i), x[lane]);
-      }
+      scatter(point(p, n, pattern.inner[i].face), count, s.drawn_position,
+              [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
     }
   }
+}
+
+template <LiftedPoint point>
+void draw_lifted(const Tessellation& s) {
+  run_wide(widest_vectors(), [&] { lift<point>(s); });
 }
 
 void draw_paper(const Tessellation& s) {
@@ -237,17 +208,17 @@ void Tessellation::run() const {
   std::copy(position.z, position.z + particles, drawn_position.z);
   switch (mode) {
     case SurfaceMode::kFlat:
-      return draw_flat(*this);
+      return run_wide(widest_vectors(), [this] { draw_flat(*this); });
     case SurfaceMode::kPn:
-      return run_wide(widest_vectors(), [this] { draw_curved<SurfaceMode::kPn>(*this); });
+      return draw_curved<SurfaceMode::kPn>(*this);
     case SurfaceMode::kPaper:
       return draw_paper(*this);
     case SurfaceMode::kPleat:
-      return run_wide(widest_vectors(), [this] { draw_curved<SurfaceMode::kPleat>(*this); });
+      return draw_curved<SurfaceMode::kPleat>(*this);
     case SurfaceMode::kPhong:
-      return draw_lifted<phong_point>(*this);
+      return draw_lifted<phong_point<Lanes>>(*this);
     case SurfaceMode::kSpherigon:
-      return draw_lifted<spherigon_point>(*this);
+      return draw_lifted<spherigon_point<Lanes>>(*this);
     case SurfaceMode::kArcPn:
       return draw_curved<SurfaceMode::kArcPn>(*this);
   }

@@ -19,10 +19,10 @@ TEST(FoldSides, NothingShortNothingChosen) {
   Surface s(skirt());
   s.move([](const Vec3& x) { return x * 1.05f; });
   s.run();
-  for (const FoldChoice& choice : s.choices) {
-    EXPECT_EQ(choice.up, 0.0f);
-    EXPECT_EQ(choice.down, 0.0f);
-    EXPECT_EQ(choice.height, 0.0f);
+  for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+    EXPECT_EQ(s.choices.up[e], 0.0f);
+    EXPECT_EQ(s.choices.down[e], 0.0f);
+    EXPECT_EQ(s.choices.height[e], 0.0f);
   }
 }
 
@@ -30,12 +30,13 @@ TEST(FoldSides, BothFoldsOfAnEdgeHaveTheirSigns) {
   Surface s = pushed(9, 0.9f, 0.05f, 3.0f);
   s.jitter(0.01f, 4);
   s.run();
-  for (const FoldChoice& choice : s.choices) {
-    EXPECT_GE(choice.up, 0.0f);
-    EXPECT_LE(choice.down, 0.0f);
-    EXPECT_LE(std::abs(choice.side), 1.0f);
-    EXPECT_NEAR(length(choice.direction), 1.0f, 1e-5f);
-    EXPECT_TRUE(choice.height >= choice.down && choice.height <= choice.up);
+  for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+    const Vec4& n = s.choices.direction[e];
+    EXPECT_GE(s.choices.up[e], 0.0f);
+    EXPECT_LE(s.choices.down[e], 0.0f);
+    EXPECT_LE(std::abs(s.choices.side[e]), 1.0f);
+    EXPECT_NEAR(length(Vec3{n.x, n.y, n.z}), 1.0f, 1e-5f);
+    EXPECT_TRUE(s.choices.height[e] >= s.choices.down[e] && s.choices.height[e] <= s.choices.up[e]);
   }
 }
 
@@ -56,7 +57,7 @@ TEST(FoldSides, ARidgeRunsOnWhereItsBulgeIsUnclear) {
   s.fold_sides().run();
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     if (!along_x(e) || row(e) == 0 || row(e) == 8) continue;
-    EXPECT_GT(s.choices[e].side * (column(e) % 2 == 0 ? 1.0f : -1.0f), row(e) == 4 ? 0.5f : 0.9f) << e;
+    EXPECT_GT(s.choices.side[e] * (column(e) % 2 == 0 ? 1.0f : -1.0f), row(e) == 4 ? 0.5f : 0.9f) << e;
   }
 }
 
@@ -71,7 +72,7 @@ TEST(FoldSides, MirroredClothChoosesMirroredSides) {
   });
   a.run(), b.run();
   for (std::uint32_t e = 0; e < a.garment.edge_count; ++e) {
-    EXPECT_NEAR(a.choices[e].side, -b.choices[e].side, 1e-3f);
+    EXPECT_NEAR(a.choices.side[e], -b.choices.side[e], 1e-3f);
   }
 }
 
@@ -108,9 +109,9 @@ TEST(FoldSides, DegenerateClothStaysFinite) {
     Surface s(skirt());
     s.move([&](const Vec3& x) { return Vec3{x.x * scale, x.y * scale, 0.0f}; });
     s.run();
-    for (const FoldChoice& choice : s.choices) {
-      EXPECT_TRUE(std::isfinite(choice.side));
-      EXPECT_TRUE(std::isfinite(choice.height));
+    for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+      EXPECT_TRUE(std::isfinite(s.choices.side[e]));
+      EXPECT_TRUE(std::isfinite(s.choices.height[e]));
     }
   }
 }
@@ -125,11 +126,12 @@ TEST(FoldSides, ValidateRefusesWhatIsMissing) {
   EXPECT_FALSE(f.validate());
   f = s.fold_sides(), f.normal = {};
   EXPECT_FALSE(f.validate());
-  f = s.fold_sides(), f.choices = f.choices.first(3);
+  f = s.fold_sides(), f.choices = nullptr;
   EXPECT_FALSE(f.validate());
   f = s.fold_sides(), f.side = nullptr;
   EXPECT_FALSE(f.validate());
-  f = s.fold_sides(), f.springs = {};
+  FoldChoices none(std::pmr::get_default_resource());
+  f = s.fold_sides(), f.choices = &none;
   EXPECT_FALSE(f.validate());
 }
 

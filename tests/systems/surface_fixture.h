@@ -38,8 +38,7 @@ struct Surface {
   TessellationPattern pattern;
   Vec3Column position, normal, fold, drawn, drawn_normal;
   Column<float> fold_height, fold_side;
-  std::vector<FoldChoice> choices;
-  std::vector<FoldSprings> springs;
+  FoldChoices choices;
   float kept = 0.0f;  // of the last frame's sides
   SurfaceMode mode = SurfaceMode::kPleat;
 
@@ -53,13 +52,13 @@ struct Surface {
         drawn(m),
         drawn_normal(m),
         fold_height(m),
-        fold_side(m) {
+        fold_side(m),
+        choices(m) {
     position.resize(garment.particle_count);
     normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
     fold_height.resize(garment.edge_count), fold_side.resize(garment.edge_count);
-    choices.resize(garment.edge_count);
-    springs.resize((garment.face_count + kLanes - 1) / kLanes);
+    choices.make_room(garment.edge_count, garment.face_count);
     drawn.resize(pattern.vertex_count);
     drawn_normal.resize(pattern.shaded_count());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
@@ -76,9 +75,7 @@ struct Surface {
   }
 
   ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view(), fold.view()}; }
-  FoldSides fold_sides() {
-    return {&garment, position.view(), normal.view(), choices, springs, kept, fold_side.data()};
-  }
+  FoldSides fold_sides() { return {&garment, position.view(), normal.view(), &choices, kept, fold_side.data()}; }
   EdgeLength edge_length() {
     return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), fold_side.data()};
   }
