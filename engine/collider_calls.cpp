@@ -162,10 +162,11 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     const pleat_collider_settings settings{sizeof settings, def.friction, def.thickness, def.radius, def.radius_b};
     need_settings(settings);
     const std::size_t before = world.colliders.size();
+    const BodyCensus census = body_census(world);
     try {
       const Handle added = add_collider(world, def);
       set_collider(world, world.colliders.back(), settings);
-      replan(world);
+      replan(world, census);
       *collider = {added.index, added.generation};
     } catch (...) {
       if (world.colliders.size() != before) remove_collider(world, static_cast<std::uint32_t>(before));
@@ -182,8 +183,9 @@ pleat_result collider_destroy(pleat_world* handle, [[maybe_unused]] pleat_collid
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
+    const BodyCensus census = body_census(world);
     remove_collider(world, need_handle("collider", world.collider_handles, collider));
-    replan(world);
+    replan(world, census);
 #endif
   });
 }

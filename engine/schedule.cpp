@@ -182,6 +182,20 @@ void replan(World& world) {
   }
 }
 
+BodyCensus body_census(const World& world) {
+  const std::size_t capsules = world.capsules.size();
+  return {.any = !world.colliders.empty(),
+          .any_capsule = capsules != 0,
+          .any_plane = world.planes.size() != 0,
+          .capsule_room = capsule_room(capsules),
+          .meshes = world.meshes.size()};
+}
+
+void replan(World& world, const BodyCensus& before) {
+  if (body_census(world) != before) return replan(world);
+  wake_all(world);
+}
+
 void tick(World& world, float dt) {
   ++world.ticks;
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;

@@ -20,8 +20,19 @@ namespace pleat {
 /// Decides anew which systems `cloth` needs, makes room for the optional columns that they use, and brings its drawn
 /// surface up to date. To be called whenever the cloth, its settings or its place changed. Throws std::bad_alloc.
 void refresh(World& world, ClothRecord& cloth);
-/// The same decision for all cloths, after the scene's colliders, gravity or wind changed. Throws std::bad_alloc.
+/// The same decision for all cloths, after the scene's gravity or wind changed. Throws std::bad_alloc.
 void replan(World& world);
+
+/// What plans and room depend on among the bodies.
+struct BodyCensus {
+  bool any, any_capsule, any_plane;
+  std::size_t capsule_room, meshes;
+  bool operator==(const BodyCensus&) const = default;
+};
+BodyCensus body_census(const World& world);
+/// The same after a body came or went: nothing is decided anew unless the census has changed, so that a crowd's bodies
+/// take no longer the more there are. Throws std::bad_alloc.
+void replan(World& world, const BodyCensus& before);
 
 /// And for one cloth, whose need of optional columns is as it was: on any thread.
 void replan(const World& world, ClothRecord& cloth);

@@ -1,6 +1,7 @@
 #include "engine/worker.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "engine/world.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -52,7 +53,7 @@ void make_cloth_contact_room(Worker& worker, const ClothRecord& cloth) {
 void make_body_contact_room(Worker& worker, const World& world, const ClothRecord& cloth) {
   if (world.colliders.empty()) return;
   const Garment& g = cloth.garment();
-  at_least(worker.capsule_poses, std::min<std::size_t>(world.capsules.size(), kMostCapsulesPerCloth));
+  at_least(worker.capsule_poses, capsule_room(world.capsules.size()));
   at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
   CapsuleCandidateColumns& candidates = worker.capsule_candidates;
   at_least(candidates.near, FeatureWords(g).end * worker.capsule_poses.size());
@@ -72,6 +73,10 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
 #endif
 
 }  // namespace
+
+std::size_t capsule_room(std::size_t capsules) {
+  return capsules == 0 ? 0 : std::min(std::bit_ceil(capsules), kMostCapsulesPerCloth);
+}
 
 void make_room(Worker& worker, [[maybe_unused]] const World& world, const ClothRecord& cloth) {
   worker.packed.make_room(cloth.garment().particle_count);

@@ -51,6 +51,9 @@ struct Worker {
         number(k) {}
 };
 
+/// For as many capsules near a cloth as a world with `capsules` may have; by doubling, for crowds come one by one.
+std::size_t capsule_room(std::size_t capsules);
+
 struct World;
 struct ClothRecord;
 /// For this cloth too, where the scene is as it is now. Throws std::bad_alloc.

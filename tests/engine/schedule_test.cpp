@@ -113,6 +113,29 @@ TEST(Schedule, WithoutAColliderThereAreNoContactColumns) {
   EXPECT_EQ(world.bodies, nullptr);
 }
 
+TEST(Schedule, BodiesThatChangeNoPlanAreRightlyNotPlannedFor) {
+  Scene scene;
+  scene.cloth(scene.sheet(4));
+  World& world = scene.inside();
+  const auto expect_what_a_full_plan_says = [&] {
+    EXPECT_GE(world.workers[0].capsule_poses.size(), world.capsules.size());
+    const Plan plan = world.clothes[0].plan;
+    replan(world);
+    EXPECT_EQ(plan, world.clothes[0].plan) << world.capsules.size() << " capsules";
+  };
+  std::vector<pleat_collider> spheres;
+  for (int k = 0; k < 9; ++k) {
+    spheres.push_back(scene.sphere(static_cast<float>(k), -1, 0, 0.2f));
+    expect_what_a_full_plan_says();
+    scene.step();
+    EXPECT_EQ(world.stats.contacts_dropped, 0u);
+  }
+  for (const pleat_collider sphere : spheres) {
+    must(call::collider_destroy(scene, sphere));
+    expect_what_a_full_plan_says();
+  }
+}
+
 TEST(Schedule, CollidersArePlannedAnewWhenTheyComeAndGo) {
   Scene scene;
   scene.cloth(scene.sheet(4));
