@@ -129,6 +129,16 @@ inline Four load_four(const Vec4& from) {
   std::memcpy(&four, &from, sizeof four);
   return four;
 }
+inline void store(const Four& four, Vec4& to) { std::memcpy(&to, &four, sizeof four); }
+/// Of the vectors; what they carry besides does not count.
+inline float dot(const Four& a, const Four& b) {
+  const Four product = a * b;
+  return product[0] + product[1] + product[2];
+}
+/// The way between two vectors, which carries 0.
+inline Four way_between(const Four& from, const Four& to) {
+  return __builtin_shufflevector(to - from, Four{}, 0, 1, 2, 7);
+}
 
 /// Eight vectors, and what each carries besides, with their components beside each other.
 inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {

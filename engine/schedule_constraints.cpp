@@ -45,8 +45,9 @@ void limit_stretch(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .relaxation = relaxation_of(t),
+                        .previous = t.previous,
                         .position = t.position,
-                        .packed = t.worker.packed.position.data()},
+                        .packed = &t.worker.packed},
       t.worker.stats);
 }
 
@@ -108,8 +109,9 @@ constexpr Row kRows[] = {
                              .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
                              .dt = t.dt,
+                             .previous = t.previous,
                              .position = t.position,
-                             .packed = t.worker.packed.position.data()});
+                             .packed = &t.worker.packed});
      }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.

@@ -11,18 +11,20 @@ namespace pleat {
 
 /// One pass over the edges, in order, in place of ElasticForce: moves the ends of each to where the force of eq (1) at
 /// the end of the step would bring them, were they alone in the world,
-///   x_i += w_i dt^2 F / (1 + (w_i + w_j) dt^2 k l/L),   F = k (l - L)/L (x_j - x_i),   x_j likewise with -F
+///   x_i += w_i dt^2 F / (1 + (w_i + w_j) dt^2 k q.d/(l L)),   F = k (l - L)/L q,   x_j likewise with -F
+/// where d = x_j - x_i and q is the same where the step began (pull_direction.h).
 /// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law.
-/// Reads:  garment edges; inverse_mass (P) 1/kg.  Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.
-/// Errors: none.
+/// Reads:  garment edges; inverse_mass (P) 1/kg; previous (P) m: where the step began
+/// Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
   EdgeLaw law;      // stiffness > 0
   float dt = 0.0f;  // s
+  ConstVec3View previous;
   Vec3View position;
-  Vec4* packed = nullptr;  // (P)
+  Vec4Columns* packed = nullptr;  // holds (P)
 
   bool validate() const;
   void run() const;

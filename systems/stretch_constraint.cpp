@@ -1,6 +1,7 @@
 #include "systems/stretch_constraint.h"
 
 #include "components/lanes.h"
+#include "components/pull_direction.h"
 #include "components/wide.h"
 
 namespace pleat {
@@ -12,19 +13,22 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in) {
   const std::uint32_t *first = g.edge_particle[0].data(), *second = g.edge_particle[1].data();
   const float* rest_length = g.edge_rest_length.data();
   const float most = 1.0f + in.limit;
+  Vec4* packed = in.packed->position.data();
+  const Vec4* previous = in.packed->previous.data();
   std::uint32_t skipped = 0;
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
-    Vec4 &a = in.packed[first[e]], &b = in.packed[second[e]];
-    const Vec3 d{b.x - a.x, b.y - a.y, b.z - a.z};
+    const std::uint32_t i = first[e], j = second[e];
+    const Four a = load_four(packed[i]), b = load_four(packed[j]), d = way_between(a, b);
     const float l2 = dot(d, d), longest = most * rest_length[e];
     if (l2 < 1e-18f) ++skipped;
     if (!(l2 > longest * longest) || l2 < 1e-18f) continue;
-    const float wa = a.w, wb = b.w, weight = wa + wb;
+    const float wa = a[3], wb = b[3], weight = wa + wb;
     if (weight == 0.0f) continue;
+    const Four way = pull_direction(d, way_between(load_four(previous[i]), load_four(previous[j])));
     const float l = std::sqrt(l2);
-    const Vec3 pull = d * (in.relaxation * (l - longest) / (l * weight));
-    a = {a.x + pull.x * wa, a.y + pull.y * wa, a.z + pull.z * wa, wa};
-    b = {b.x - pull.x * wb, b.y - pull.y * wb, b.z - pull.z * wb, wb};
+    const Four pull = way * (in.relaxation * (l - longest) * l / (weight * dot(way, d)));
+    store(a + pull * wa, packed[i]);
+    store(b - pull * wb, packed[j]);
   }
   return skipped;
 }
@@ -32,15 +36,17 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in) {
 }  // namespace
 
 bool StretchConstraint::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && position.x != nullptr && limit >= 0.0f && relaxation > 0.0f &&
-         relaxation < 2.0f && packed != nullptr;
+  return garment != nullptr && inverse_mass != nullptr && previous.x != nullptr && position.x != nullptr &&
+         limit >= 0.0f && relaxation > 0.0f && relaxation < 2.0f && packed != nullptr &&
+         packed->holds(garment->particle_count);
 }
 
 void StretchConstraint::run(Stats& stats) const {
   run_wide(widest_vectors(), [&] {
-    pack(position, inverse_mass, garment->particle_count, packed);
+    pack(position, inverse_mass, garment->particle_count, packed->position.data());
+    pack(previous, nullptr, garment->particle_count, packed->previous.data());
     stats.edges_skipped += limit_edges(*this);
-    unpack(packed, garment->particle_count, position);
+    unpack(packed->position.data(), garment->particle_count, position);
   });
 }
 

@@ -10,11 +10,12 @@
 namespace pleat {
 
 /// One pass over the edges, in order: pulls the ends of each over-long edge together along it.
-///   C = |x_j - x_i| - (1 + limit) L > 0:   x_i += w_i/(w_i + w_j) r C u,   x_j -= w_j/(w_i + w_j) r C u
+///   C = |d| - (1 + limit) L > 0,  d = x_j - x_i:   x_i += w_i/(w_i + w_j) r C q,   x_j -= w_j/(w_i + w_j) r C q
+/// where q is along the edge as the substep began, so long that its component along d is 1 (pull_direction.h).
 /// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
-/// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are central
-/// and weighted by inverse mass, so momentum is kept except at pins.
-/// Reads:  garment edges; inverse_mass (P) 1/kg
+/// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are weighted
+/// by inverse mass, so momentum is kept except at pins.
+/// Reads:  garment edges; inverse_mass (P) 1/kg; previous (P) m: where the substep began
 /// Writes: position (P) m; packed, scratch; stats.edges_skipped
 /// Cost:   O(P + E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
@@ -22,8 +23,9 @@ struct StretchConstraint {
   const float* inverse_mass = nullptr;
   float limit = 0.0f;       // fraction of the rest length
   float relaxation = 1.0f;  // r, below 2
+  ConstVec3View previous;
   Vec3View position;
-  Vec4* packed = nullptr;  // (P)
+  Vec4Columns* packed = nullptr;  // holds (P)
 
   bool validate() const;
   void run(Stats& stats) const;

@@ -11,8 +11,9 @@ StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
   return {.garment = &sheet.garment,
           .inverse_mass = sheet.inverse_mass,
           .limit = limit,
+          .previous = sheet.previous,
           .position = sheet.position,
-          .packed = sheet.packed.position.data()};
+          .packed = &sheet.packed};
 }
 
 float worst_strain(const Sheet& sheet) {
@@ -33,6 +34,8 @@ TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
   bad.garment = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.inverse_mass = nullptr;
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.previous = {};
   EXPECT_FALSE(bad.validate());
   bad = good, bad.position = {};
   EXPECT_FALSE(bad.validate());
@@ -133,6 +136,23 @@ TEST(StretchConstraint, PinsStayAndTheOtherEndTakesAll) {
   held.position.set(1, {9, 0, 0});
   job(held).run(stats);
   EXPECT_EQ(held.position[1], (Vec3{9, 0, 0}));
+}
+
+TEST(StretchConstraint, PullsAlongTheEdgeAsTheStepBegan) {
+  const std::uint32_t pins[] = {0};
+  Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -5}}, {{0, 1, 2}}}, pins);
+  sheet.previous.set(1, {1, 0, 0});
+  sheet.position.set(1, {1, 0.2f, 0});
+  sheet.position.set(2, {0.5f, 0, -4.5f});  // slack
+  Stats stats;
+  for (int pass = 0; pass < 5; ++pass) job(sheet, 0.0f).run(stats);
+  EXPECT_EQ(sheet.position[1].y, 0.2f);
+  EXPECT_NEAR(length(sheet.position[1]), 1.0f, 1e-6f);
+  // Turned by more than 60 degrees there is nothing to gain.
+  sheet.previous.set(1, {1, 0, 0});
+  sheet.position.set(1, {0.5f, 1.2f, 0});
+  job(sheet, 0.0f).run(stats);
+  EXPECT_NEAR(sheet.position[1].y / sheet.position[1].x, 2.4f, 1e-5f);
 }
 
 TEST(StretchConstraint, SlackEdgesAreLeftAlone) {
