@@ -148,7 +148,7 @@ TEST(StretchConstraint, PullsAlongTheEdgeAsTheStepBegan) {
   for (int pass = 0; pass < 5; ++pass) job(sheet, 0.0f).run(stats);
   EXPECT_EQ(sheet.position[1].y, 0.2f);
   EXPECT_NEAR(length(sheet.position[1]), 1.0f, 1e-6f);
-  // Turned by more than 60 degrees there is nothing to gain.
+  // Turned by more than 30 degrees there is nothing to gain.
   sheet.previous.set(1, {1, 0, 0});
   sheet.position.set(1, {0.5f, 1.2f, 0});
   job(sheet, 0.0f).run(stats);
