@@ -131,6 +131,8 @@ void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progre
   }
   budget.cloths = scene.cloths().size();
   budget.cloth = scene.cloth_info(0);
+  budget.folds_given_up = scene.stats().folds_given_up;
+  budget.substeps_given_up = scene.stats().substeps_given_up;
   quality.measure_rest(scene);
   budget.quality = quality.result();
 }

@@ -129,6 +129,11 @@ void print_budget(const demo::SceneDef& def, const Budget& budget) {
   print_row("frame", budget.frame);
   for (const auto& [name, spread] : budget.stages) print_row(("  " + name).c_str(), spread);
   if (budget.allocations_per_frame) std::printf("%-28s %10.3f\n", "allocations a frame", *budget.allocations_per_frame);
+  if (def.budget > 0.0) {
+    std::printf("given up for %g ms a tick     folds of %llu cloths, substeps of %llu\n", def.budget,
+                static_cast<unsigned long long>(budget.folds_given_up),
+                static_cast<unsigned long long>(budget.substeps_given_up));
+  }
   print_beside_paper(budget);
   print_quality(budget.quality);
   print_surface(budget);
@@ -152,6 +157,11 @@ nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& d
   if (budget.pn_smoothing) json["smoothing_pn_only_us"] = *budget.pn_smoothing;
   json["per_particle_us"] = budget.frame.median / double(budget.cloth.particles * budget.cloths);
   if (budget.allocations_per_frame) json["allocations_per_frame"] = *budget.allocations_per_frame;
+  if (def.budget > 0.0) {
+    json["budget_ms"] = def.budget;
+    json["folds_given_up"] = budget.folds_given_up;
+    json["substeps_given_up"] = budget.substeps_given_up;
+  }
   json["bytes_per_cloth"] = budget.cloth.bytes;
   json["quality"] = to_json(budget.quality);
   json["surface"] = to_json(budget.surface);

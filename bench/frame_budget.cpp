@@ -55,6 +55,10 @@ int run_program(int argc, char** argv) {
   app.add_option("--threads", threads, "that run cloths; systems are timed one by one with a single one")
       ->check(CLI::Range(1u, PLEAT_MAX_WORKERS))
       ->capture_default_str();
+  double tick_budget = 0.0;
+  app.add_option("--budget", tick_budget, "level of detail: what a tick of all cloths may take; the first is nearest")
+      ->type_name("MS")
+      ->check(CLI::Range(0.001, 1e6));
   std::string peer;
   app.add_option("--peer", peer, "in turn with Bullet's soft body, `bullet`, or `bullet:N` for N iterations, not 4")
       ->check(CLI::Validator([](std::string& text) { return parse_peer(text) ? "" : "not bullet or bullet:1..1000"; },
@@ -69,6 +73,7 @@ int run_program(int argc, char** argv) {
   const pleat_api& api = pleat::demo::library();
   pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
   def.workers = threads;
+  def.budget = tick_budget;
   std::optional<pleat::demo::OutputFile> json;
   if (!json_path.empty()) json.emplace(json_path);
   const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat, parse_peer(peer));

@@ -1,5 +1,6 @@
 #include "demo/scenes/scene.h"
 
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -105,6 +106,7 @@ void Scene::create_copies() {
     move_points(def().garment.positions, origin, moved_);
     cloth.positions = moved_.data();
     check(api_.cloth_create(world_, &cloth, &cloths_.emplace_back()), "cloth");
+    check(api_.cloth_set_importance(world_, cloths_.back(), 1.0f / float(cloths_.size())), "importance");
     for (size_t part = 0; part < body().touching; ++part) {
       pleat_collider_def part_def;
       api_.collider_def_init(&part_def, sizeof part_def);
@@ -161,13 +163,24 @@ void Scene::step() {
     check(api_.collider_move_mesh(world_, meshes_[k], moved_.data(), 0, uint32_t(def().body.vertex_count())),
           "collider");
   }
+  const auto start = std::chrono::steady_clock::now();
   check(api_.world_step(world_, float(1.0 / def().rate)), "step");
+  if (def().budget == 0.0) return;
+  const std::chrono::duration<float, std::milli> cost = std::chrono::steady_clock::now() - start;
+  check(api_.world_keep_budget(world_, float(def().budget), cost.count()), "budget");
 }
 
 pleat_cloth_info Scene::cloth_info(size_t cloth) const {
   pleat_cloth_info info;
   check(api_.cloth_info(world_, cloths_[cloth], &info), "cloth");
   return info;
+}
+
+pleat_stats Scene::stats() const {
+  pleat_stats stats;
+  stats.size = sizeof stats;
+  check(api_.world_stats(world_, &stats), "statistics");
+  return stats;
 }
 
 void Scene::read_particles(size_t cloth, std::vector<float>& positions) const {

@@ -25,6 +25,7 @@ class Scene final : public RunningScene {
   pleat_garment garment() const { return garment_; }
   std::span<const pleat_cloth> cloths() const { return cloths_; }
   pleat_cloth_info cloth_info(size_t cloth) const;
+  pleat_stats stats() const;
 
   /// Turns the engine's complaint into an exception.
   void check(pleat_result result, const char* what) const;

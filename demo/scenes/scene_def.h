@@ -41,6 +41,7 @@ struct SceneDef {
   double rate = 60.0;     ///< frames a second
   uint32_t frames = 300;  ///< a run's length
   uint32_t workers = 1;   ///< threads that run cloths
+  double budget = 0.0;    ///< ms that a tick may take, with detail given up from the last copy on; 0: all detail
   double settle = 0.0;    ///< s of `motion` before frame 0: it begins at -settle
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};
   Eigen::Vector3d wind{0.0, 0.0, 0.0};

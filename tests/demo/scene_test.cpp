@@ -374,5 +374,15 @@ TEST(SceneAir, GustsAndFabricsAreReadAndChecked) {
   }
 }
 
+TEST(Scene, ABudgetThatIsTooSmallTakesDetailFromAllButNoneWithout) {
+  SceneDef def = load("crowd:3");
+  for (const double budget : {0.0, 1e-6}) {
+    def.budget = budget;
+    Scene scene(api(), def);
+    for (int frame = 0; frame < 10; ++frame) scene.advance();
+    EXPECT_EQ(scene.stats().folds_given_up, budget == 0.0 ? 0u : 3u);
+  }
+}
+
 }  // namespace
 }  // namespace pleat::demo
