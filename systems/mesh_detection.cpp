@@ -9,7 +9,11 @@
 namespace pleat {
 namespace {
 
-constexpr float kFlatSlope = 0.02f;      // a body vertex counts as standing out while none around is steeper than this
+// Slopes. The sweeps turn what rows were made for; ridges and vertices of the body that are next to be met then have
+// theirs already, else cloth that lies on two of them falls to one and the other by turns. A face beside a pin turns by
+// 0.1 in a substep; its rows are few anyway. Those of an edge are made by less where the next ridge is nearer than the
+// edge is long, since less is missed there.
+constexpr float kTurnOfFace = 0.2f, kTurnOfEdge = 0.05f;
 constexpr float kTouching = 1e-4f;       // m; nearer than this the body's own normal is better than the difference
 constexpr std::size_t kRowsPerFace = 4;  // the deepest body vertices over a face
 
@@ -62,6 +66,7 @@ struct MeshTest {
 
  private:
   struct Face {
+    std::uint32_t index = 0;
     std::uint32_t particle[3] = {};
     Vec3 x[3];
     Vec3 area, normal;
@@ -74,6 +79,7 @@ struct MeshTest {
 
   Face measure(std::uint32_t face) const {
     Face f;
+    f.index = face;
     for (std::size_t c = 0; c < 3; ++c) {
       f.particle[c] = in.garment->face_particle[c][face];
       f.x[c] = in.position[f.particle[c]];
@@ -150,15 +156,43 @@ struct MeshTest {
     if (!(f.area2 > 1e-16f) || std::abs(height) > reach) return;
     const Vec3 u = f.x[1] - f.x[0], v = f.x[2] - f.x[0];
     const float b1 = dot(cross(w, v), f.area) / f.area2, b2 = dot(cross(u, w), f.area) / f.area2;
-    if (!(b1 > 0.0f && b2 > 0.0f && b1 + b2 < 1.0f)) return;
+    if (!(b1 > 0.0f && b2 > 0.0f && b1 + b2 < 1.0f)) {
+      for (std::size_t i = 0; i < 3; ++i) test_fold(f, i, vertex, q);
+      return;
+    }
     const float side = dot(pose.vertex_normal(vertex), f.normal) < 0.0f ? -1.0f : 1.0f;
     const Standing found{side * height, vertex, {1.0f - b1 - b2, b1, b2}, f.normal * side};
     const bool full = f.standing_count == kRowsPerFace;
     Standing* highest = std::max_element(f.standing.data(), f.standing.data() + f.standing_count,
                                          [](const Standing& a, const Standing& b) { return a.height < b.height; });
     if (full && highest->height <= found.height) return;
-    if (!pose.is_extreme(vertex, found.normal, kFlatSlope)) return;
+    if (!pose.is_extreme(vertex, found.normal, kTurnOfFace)) return;
     (full ? *highest : f.standing[f.standing_count++]) = found;
+  }
+
+  /// A vertex q of the body over neither face at edge i: cloth that is folded around it would come close there unseen.
+  void test_fold(const Face& f, std::size_t i, std::uint32_t vertex, const Vec3& q) const {
+    const Garment& g = *in.garment;
+    const std::uint32_t edge = g.face_edge[i][f.index], across = g.edge_face[1][edge];
+    if (g.edge_face[0][edge] != f.index || across == kNone) return;
+    const std::size_t j = (i + 1) % 3;
+    const Vec3 along = f.x[j] - f.x[i], w = q - f.x[i];
+    const float length2 = dot(along, along), reached = dot(w, along);
+    if (!(reached > 0.0f && reached < length2)) return;
+    const float s = reached / length2;
+    const Vec3 away = along * s - w;
+    const float distance2 = dot(away, away);
+    if (distance2 >= reach * reach || distance2 < kTouching * kTouching) return;
+    std::uint32_t opposite = g.face_particle[0][across];
+    for (std::size_t c = 1; opposite == f.particle[i] || opposite == f.particle[j]; ++c) {
+      opposite = g.face_particle[c][across];
+    }
+    if (dot(away, f.x[(i + 2) % 3] - f.x[i]) < 0.0f || dot(away, in.position[opposite] - f.x[i]) < 0.0f) return;
+    const float side = dot(pose.vertex_normal(vertex), away) < 0.0f ? -1.0f : 1.0f;
+    const Vec3 normal = away * (side / std::sqrt(distance2));
+    if (!pose.is_extreme(vertex, normal, kTurnOfFace)) return;
+    rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - s, s, 0.0f}, normal, q, thickness,
+             pose.step(vertex), friction, false, stats);
   }
 
   void add_face_row(const Face& f, const Standing& s) const {
@@ -191,7 +225,13 @@ struct MeshTest {
     if (dot(n1, into2) > -1e-3f * length(into2)) return;
     const float side = dot(common, n1 + n2) < 0.0f ? -1.0f : 1.0f;
     const Vec3 normal = common * (side / std::sqrt(common2));
-    if (dot(normal, into1) > 1e-3f * length(into1) || dot(normal, into2) > 1e-3f * length(into2)) return;
+    // The heights of the two triangles over the ridge are the distances to the next ones.
+    const float far = std::sqrt(ee * aa);
+    const auto beyond = [&](const MeshPose::Corners& triangle, const Vec3& into) {
+      const float next = length(cross(triangle.b - triangle.a, triangle.c - triangle.a));
+      return dot(normal, into) * far > kTurnOfEdge * std::min(next, far) * length(into);
+    };
+    if (beyond(body, into1) || beyond(other, into2)) return;
 
     const SegmentPair at{s / common2, r / common2};
     const std::uint32_t va = pose.corner(t, k), vb = pose.corner(t, (k + 1) % 3);

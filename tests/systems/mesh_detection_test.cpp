@@ -125,6 +125,55 @@ TEST(MeshDetection, RidgeCutsNoEdgeAndCornerNoFace) {
   }
 }
 
+TEST(MeshDetection, EdgeOnTwoRidgesHasARowAtBoth) {
+  // However it is tilted by a substep, else it falls to the ridge without a row and to the other one by turns.
+  Body body(box_shape({0.1f, 0.1f, 0.1f}));
+  for (const float tilt : {-0.02f, 0.0f, 0.02f}) {
+    ContactCloth cloth({{-0.2f, 0.105f - 0.2f * tilt, 0}, {0.2f, 0.105f + 0.2f * tilt, 0}, {0, 0.6f, 0}}, {{0, 1, 2}});
+    Stats stats;
+    body.detection(cloth).run(stats);
+    bool left = false, right = false;
+    for (std::uint32_t c = 0; c < cloth.row_count; ++c) {
+      const float x = contact_point(cloth.rows[c], ConstVec3View(cloth.position.view())).x;
+      left = left || std::abs(x + 0.1f) < 1e-3f;
+      right = right || std::abs(x - 0.1f) < 1e-3f;
+    }
+    EXPECT_TRUE(left && right) << "tilt " << tilt;
+  }
+}
+
+TEST(MeshDetection, FaceOnFourCornersHasARowAtEach) {
+  Body body(box_shape({0.1f, 0.1f, 0.1f}));
+  for (const float tilt : {-0.07f, 0.0f, 0.07f}) {
+    const auto at = [&](float x, float z) { return Vec3{x, 0.107f + tilt * x, z}; };
+    ContactCloth cloth({at(-0.5f, -0.3f), at(0, 0.6f), at(0.5f, -0.3f)}, {{0, 1, 2}});
+    Stats stats;
+    body.detection(cloth).run(stats);
+    int corners = 0;
+    for (std::uint32_t c = 0; c < cloth.row_count; ++c) {
+      const Vec3 p = contact_point(cloth.rows[c], ConstVec3View(cloth.position.view()));
+      corners += std::abs(std::abs(p.x) - 0.1f) < 1e-3f && std::abs(std::abs(p.z) - 0.1f) < 1e-3f;
+    }
+    EXPECT_EQ(corners, 4) << "tilt " << tilt;
+  }
+}
+
+TEST(MeshDetection, ClothFoldedAroundACornerMeetsIt) {
+  // The tip of a flat pyramid below the fold of a steep valley: over neither face, and off the ends of all ridges.
+  const BodyShape pyramid{{{0.5f, 0, 0}, {0, 0, -0.5f}, {-0.5f, 0, 0}, {0, 0, 0.5f}, {0, 0.1f, 0}, {0, -0.3f, 0}},
+                          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
+  Body body(pyramid);
+  for (const float height : {0.001f, 0.004f}) {
+    const float y = 0.1f + height;
+    ContactCloth cloth({{-0.05f, y, -0.02f}, {0.05f, y, 0.02f}, {-0.02f, 0.2f, 0.05f}, {0.02f, 0.2f, -0.05f}},
+                       {{0, 2, 1}, {0, 1, 3}});
+    for (std::uint32_t i = 0; i < 4; ++i) cloth.put(i, cloth.x(i), cloth.x(i) + Vec3{0, 0.1f + kThickness - y, 0});
+    body.touch(cloth, 20);
+    const Vec3 middle = (cloth.x(0) + cloth.x(1)) * 0.5f;
+    EXPECT_NEAR(middle.y, 0.1f + kThickness, 1e-4f) << "from " << height;
+  }
+}
+
 TEST(MeshDetection, MovingBodyIsMetWhereItIsInTheSubstep) {
   Body body(icosphere(3, 0.3f));
   for (std::size_t i = 0; i < body.mesh.next.size(); ++i) {
