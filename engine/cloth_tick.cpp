@@ -15,6 +15,7 @@
 #include "systems/rigid_carry.h"
 #include "systems/rigid_fit.h"
 #ifdef PLEAT_WITH_COLLISION
+#include "systems/contact_row.h"
 #include "systems/substep_bound.h"
 #endif
 
@@ -30,13 +31,23 @@ void stop(ClothTick& t) {
   for (std::size_t i = 0; i < t.garment.particle_count; ++i) t.velocity.set(i, {});
 }
 
-/// A start that is stretched, as garments made for another body are, is pulled together before it may move: all at once
-/// the strain limit would turn the stretch into speed.
-void watch_settling(ClothTick& t) {
+/// A start that is stretched or inside a body, as garments made for another body are, is pulled together and pushed out
+/// before it may move: the strain limit and the contacts would turn that into speed.
+void begin_settling(ClothTick& t) {
   const LargestStretch stretch{.garment = &t.garment, .position = t.position, .inverse_mass = t.inverse_mass};
   assert(stretch.validate());
-  const bool loose = t.settings.stretch_limit < 1.0f && stretch.run() > t.settings.stretch_limit + kLooseStart;
-  t.cloth.settling = loose ? t.cloth.settling - t.frame_dt : 0.0f;
+  t.loose = t.settings.stretch_limit < 1.0f && stretch.run() > t.settings.stretch_limit + kLooseStart;
+  t.cloth.settling = std::max(t.cloth.settling - t.frame_dt, 0.0f);
+}
+
+/// After each of its substeps.
+void settle([[maybe_unused]] ClothTick& t) {
+#ifdef PLEAT_WITH_COLLISION
+  const ContactRow* rows = t.worker.contacts.data();
+  t.deep = std::any_of(rows + t.cloth_rows, rows + t.worker.contact_count,
+                       [&](const ContactRow& row) { return comes_from_inside(row, t.previous, t.dt); });
+#endif
+  if (t.loose || t.deep) stop(t);
 }
 
 /// Passes of strain limit and contact in each substep. What carries a pull through deep cloth is all passes of a tick:
@@ -59,11 +70,11 @@ void run_substep(ClothTick& t) {
     run_phase(t, Phase::kStage);
   }
   copy(t.predicted, t.position, n);
-  t.worker.contact_count = 0;
+  t.worker.contact_count = t.cloth_rows = 0;
   run_phase(t, Phase::kContact);
   for (t.sweeps_left = sweeps_for(t); t.sweeps_left != 0; --t.sweeps_left) run_phase(t, Phase::kSweep);
   run_phase(t, Phase::kSubstepEnd);
-  if (t.cloth.settling > 0.0f) stop(t);
+  if (t.cloth.settling > 0.0f) settle(t);
 }
 
 /// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
@@ -198,7 +209,7 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     cloth.contacts = {};
     return;
   }
-  if (cloth.settling > 0.0f) watch_settling(t);
+  if (cloth.settling > 0.0f) begin_settling(t);
   fade_detail(world, cloth, dt);
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
@@ -214,6 +225,7 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     ++worker.stats.rollbacks;
     if (t.trouble) fall_back(t);
   }
+  if (!t.loose && !t.deep) cloth.settling = 0.0f;
   run_phase(t, Phase::kFrameEnd);
   cloth.substeps_taken = n;
   cloth.contacts = {.particle = worker.stats.particle_contacts - before.particle_contacts,

@@ -448,7 +448,8 @@ typedef struct pleat_api {
   /* Coarse particles; either pointer may be null. capacity: particles. */
   pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions, float* velocities,
                                        uint32_t capacity);
-  /* Replaces all positions and velocities (null: zero): load a saved state, or place the cloth anew. Pins move too. */
+  /* Replaces all positions and velocities (null: zero): load a saved state, or place the cloth anew. Pins move too.
+     Where it is stretched or more than .5 mm inside a body it is held at rest until it is not, .25 s at most. */
   pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
                                         const float* velocities, uint32_t count);
   /* The drawn surface, as of the last tick or of the last call that made, placed or set the cloth. */

@@ -138,6 +138,7 @@ constexpr Row kRows[] = {
                          .dt = t.dt,
                          .contacts = contacts_of(t)},
            t.worker.stats);
+       t.cloth_rows = t.worker.contact_count;
      }},
     {Phase::kContact, "layer_candidates", with_layers,
      [](ClothTick& t) {
@@ -170,6 +171,7 @@ constexpr Row kRows[] = {
                           .dt = t.dt,
                           .contacts = contacts_of(t)},
            t.worker.stats);
+       t.cloth_rows = t.worker.contact_count;
      }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {

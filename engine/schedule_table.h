@@ -37,7 +37,10 @@ struct ClothTick {
   std::uint32_t substeps = 1;     // of the tick
   std::uint32_t sweeps_left = 0;  // of the present substep, the present one included
   int stage = 0;                  // of the integrator
+  std::uint32_t cloth_rows = 0;   // of contact: the first ones, with the cloth itself and with layers
   bool trouble = false;           // the tick has gone wrong
+  bool loose = false;             // a start that is stretched
+  bool deep = false;              // a start inside a body, which it is coming out of
   double time = 0.0;              // s, when the present substep begins
   Vec3 air;                       // m/s, velocity of the air now
 

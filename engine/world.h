@@ -53,7 +53,7 @@ enum class Notice : std::uint8_t { kNothing, kDue, kSaid };
 /// Which rows of the schedule a cloth runs: bit i is row i.
 using Plan = std::uint64_t;
 
-/// For how long a start that is stretched is held back at most, s.
+/// For how long a start that is stretched or inside a body is held at rest at most, s.
 inline constexpr float kSettling = 0.25f;
 
 struct ClothRecord {
@@ -76,7 +76,7 @@ struct ClothRecord {
   float substep_share = 1.0f;                // that is taken of those wanted
   std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
-  float settling = kSettling;                // s, for how much longer a start that is stretched is held back
+  float settling = kSettling;                // s, for how much longer a start that does not fit is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
   std::uint64_t last_tick = 0;               // `ticks` of the world when it last ran
 

@@ -72,4 +72,11 @@ struct ContactRowMaker {
   }
 };
 
+/// Whether the cloth was inside the row's body when the substep began, by kDeep or by all that a substep makes up.
+inline bool comes_from_inside(const ContactRow& row, ConstVec3View previous, float dt) {
+  constexpr float kDeep = 5e-4f, kRounding = 1e-6f;  // m
+  const Vec3 carried = contact_point(row, previous) + row.body_step;
+  return row.offset > dot(row.normal, carried) + std::min(kDeep, kRecoverySpeed * dt) - kRounding;
+}
+
 }  // namespace pleat

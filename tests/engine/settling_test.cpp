@@ -1,4 +1,4 @@
-// Cloth that starts stretched.
+// Cloth that starts stretched, or inside a body.
 #include "tests/engine/scene.h"
 
 namespace pleat {
@@ -45,6 +45,54 @@ TEST(Settling, AStretchedStartIsNotThrown) {
 }
 
 TEST(Settling, AStartThatFitsMovesAtOnce) { EXPECT_NEAR(speeds(1.0f, 0)[0], 9.81f / 60, 0.02f); }
+
+#ifdef PLEAT_WITH_COLLISION
+/// The highest that any of a sheet's particles gets in .3 s, m. It starts in a cylinder whose crest is `depth`
+/// higher, and clears that by no more than its thickness.
+float highest(float depth, std::uint32_t substeps) {
+  constexpr float kRadius = 0.2f;
+  Scene scene;
+  pleat_collider_def body;
+  must(call::collider_def_init(&body, sizeof body));
+  body.radius = kRadius;
+  const float y = depth - kRadius;
+  const float a[3] = {-2, y, 0}, b[3] = {2, y, 0};
+  std::copy_n(a, 3, body.a), std::copy_n(b, 3, body.b);
+  pleat_collider collider{};
+  must(call::collider_create(scene, &body, &collider));
+  pleat_cloth_settings s = Scene::default_settings();
+  s.substeps = substeps;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(6), s);
+  float top = 0.0f;
+  for (int tick = 0; tick < 18; ++tick) {
+    scene.step();
+    const std::vector<float> x = scene.particles(cloth);  // and their velocities
+    for (std::size_t i = 1; i < x.size() / 2; i += 3) top = std::max(top, x[i]);
+  }
+  return top;
+}
+
+TEST(Settling, AStartInsideABodyIsNotThrown) {
+  for (const std::uint32_t substeps : {0u, 16u, 64u}) {
+    for (const float depth : {0.01f, 0.03f, 0.06f}) {
+      EXPECT_LT(highest(depth, substeps), depth + 0.026f) << depth << ", substeps " << substeps;
+    }
+  }
+}
+
+TEST(Settling, AStartTooNearTheLayerBelowIsNotHeld) {
+  Scene scene;
+  pleat_cloth_settings s = Scene::default_settings();
+  s.layer = 1;
+  scene.cloth(scene.sheet(kSide), s);
+  s.layer = 2, s.thickness = 0.02f;
+  scene.cloth(scene.sheet(kSide), s);
+  scene.step(1, 1.0f / 60);
+  const World& world = scene.inside();
+  const std::uint32_t last = world.clothes[1].particle_begin + kSide * kSide - 1;
+  EXPECT_GT(length(world.particles.velocity.view()[last]), 0.0f);
+}
+#endif
 
 }  // namespace
 }  // namespace pleat
