@@ -30,7 +30,7 @@ struct EdgeLength {
   ConstVec3View normal;
   Vec3View fold;
   float* fold_height = nullptr;
-  const float* side = nullptr;  // as fold_sides leaves it; kPleat only
+  const float* side = nullptr;  // a column, whose padding is read, as fold_sides leaves it; kPleat only
 
   bool validate() const;
   void run() const;

@@ -56,12 +56,11 @@ Cubic pn_cubic(const Point& a, const Point& b, const Point& na, const Point& nb)
 struct Edges {
   Garment garment{std::pmr::get_default_resource()};
   Vec3Column position, normal, fold;
-  Column<float> height;
-  std::vector<float> sides;
+  Column<float> height, sides;
   SurfaceMode mode;
 
   explicit Edges(SurfaceMode m, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : position(memory), normal(memory), fold(memory), height(memory), mode(m) {}
+      : position(memory), normal(memory), fold(memory), height(memory), sides(memory), mode(m) {}
 
   void add(const Vec3& a, const Vec3& b, const Vec3& na, const Vec3& nb, float rest_length, float side = 1.0f) {
     const std::uint32_t e = garment.edge_count++, i = 2 * e, j = i + 1;
