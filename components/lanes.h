@@ -30,6 +30,8 @@ constexpr float min(float a, float b) { return a < b ? a : b; }
 constexpr float max(float a, float b) { return a > b ? a : b; }
 inline float sqrt(float a) { return std::sqrt(a); }
 
+inline Lanes length(const Vec3Lanes& a) { return sqrt(dot(a, a)); }
+
 inline bool any(const LaneMask& mask) {
   std::uint64_t pairs[kLanes / 2];
   std::memcpy(pairs, &mask, sizeof pairs);
@@ -50,7 +52,7 @@ inline Vec3Lanes choose(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lane
 }
 /// Unit vectors, or `otherwise` where they are too short to have a direction.
 inline Vec3Lanes normalized_or(const Vec3Lanes& a, const Vec3Lanes& otherwise) {
-  const Lanes l = sqrt(dot(a, a));
+  const Lanes l = length(a);
   const LaneMask good = l > 1e-12f;
   return choose(good, a * (1.0f / (good ? l : all(1.0f))), otherwise);
 }

@@ -25,7 +25,6 @@ PLEAT_KERNEL Vec3Lanes folds(const FoldRelaxation& s, std::uint32_t e) {
 }
 
 PLEAT_KERNEL void begin(const FoldRelaxation& s) {
-  const auto length = [](const Vec3Lanes& v) { return sqrt(dot(v, v)); };
   for (std::uint32_t e = 0; e < s.garment->edge_count; e += kLanes) {
     const EdgeBlock block(*s.garment, s.position, s.normal, e);
     const Vec3Lanes middle = block.curve().middle() + folds(s, e);
@@ -81,7 +80,7 @@ PLEAT_KERNEL void finish(const FoldRelaxation& s) {
     const Vec3Lanes moved = load(s.scratch.middle, e) - block.curve().middle(), was = load(s.fold, e);
     const LaneMask free = load(s.scratch.freedom + e) != 0.0f;
     const std::uint32_t count = std::min(kLanes, edges - e);
-    store(free ? sqrt(dot(moved, moved)) : load(s.fold_height + e), s.fold_height + e, count);
+    store(free ? length(moved) : load(s.fold_height + e), s.fold_height + e, count);
     store(choose(free, normalized_or(moved, was), was), s.fold, e, count);
   }
 }

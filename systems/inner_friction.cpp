@@ -18,7 +18,7 @@ struct Law {
 };
 
 PLEAT_KERNEL Vec3Lanes shortened(const Vec3Lanes& v, const Lanes& longest) {
-  const Lanes l = sqrt(dot(v, v));
+  const Lanes l = length(v);
   return v * (l > longest ? longest / l : all(1.0f));
 }
 

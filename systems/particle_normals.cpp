@@ -23,14 +23,13 @@ enum class Weighting { kBase, kForce };
 PLEAT_KERNEL std::array<Lanes, 3> force_shares(const Vec3Lanes (&x)[3], const Vec3Lanes& face, const Lanes (&rest)[3],
                                                float mean_length) {
   const auto force = [](const Vec3Lanes& side, const Lanes& rest_length) {
-    return side * (sqrt(dot(side, side)) / rest_length - 1.0f);
+    return side * (length(side) / rest_length - 1.0f);
   };
   const Vec3Lanes ab = force(x[1] - x[0], rest[0]), bc = force(x[2] - x[1], rest[1]), ca = force(x[0] - x[2], rest[2]);
-  const auto size = [](const Vec3Lanes& v) { return sqrt(dot(v, v)); };
-  const Lanes area2 = size(face), unit = area2 > 1e-12f ? 1.0f / (area2 * mean_length) : Lanes{};
+  const Lanes area2 = length(face), unit = area2 > 1e-12f ? 1.0f / (area2 * mean_length) : Lanes{};
   std::array<Lanes, 3> share = corner_weights<Lanes>({rest[0], rest[1], rest[2]}, mean_length);
   for (Lanes& s : share) s *= kBaseFallback;
-  share[0] += unit * size(ab - ca), share[1] += unit * size(bc - ab), share[2] += unit * size(ca - bc);
+  share[0] += unit * length(ab - ca), share[1] += unit * length(bc - ab), share[2] += unit * length(ca - bc);
   return share;
 }
 

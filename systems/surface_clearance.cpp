@@ -30,11 +30,11 @@ struct FaceVertices {
       std::uint32_t index[kLanes];
       for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[i + k < count ? i + k : 0];
       const Vec3Lanes place = gather(in.footprint, index), motion = gather(in.drawn_position, index) - place;
-      const Lanes length = sqrt(dot(motion, motion));
+      const Lanes motion_length = length(motion);
       store(place, {x, y, z}, i);
       store(motion, {dx, dy, dz}, i);
-      store(length, moved + i);
-      most = max(length, most);
+      store(motion_length, moved + i);
+      most = max(motion_length, most);
     }
     bulge = largest(most);
     for (std::uint32_t k = 0; k < 3; ++k) corner[k] = in.footprint[drawn[k]];
