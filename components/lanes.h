@@ -125,22 +125,20 @@ inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
 }
 
 using Four = float __attribute__((vector_size(4 * sizeof(float))));
+using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_alias));
 
-inline Four load_four(const Vec4& from) {
-  Four four;
-  std::memcpy(&four, &from, sizeof four);
-  return four;
-}
-inline void store(const Four& four, Vec4& to) { std::memcpy(&to, &four, sizeof four); }
+/// By value, not by memcpy: after that compilers go through the stack for a single number of the four.
+inline Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
+inline void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
 /// Of the vectors; what they carry besides does not count.
 inline float dot(const Four& a, const Four& b) {
   const Four product = a * b;
   return product[0] + product[1] + product[2];
 }
+/// The vector, carrying 0.
+inline Four without_load(const Four& four) { return __builtin_shufflevector(four, Four{}, 0, 1, 2, 7); }
 /// The way between two vectors, which carries 0.
-inline Four way_between(const Four& from, const Four& to) {
-  return __builtin_shufflevector(to - from, Four{}, 0, 1, 2, 7);
-}
+inline Four way_between(const Four& from, const Four& to) { return without_load(to - from); }
 
 /// Eight vectors, and what each carries besides, with their components beside each other.
 inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {

@@ -9,13 +9,20 @@
 
 namespace pleat {
 
-/// A multiple of the direction. `now`: the way from one to the other; `before`: the same where the step began.
+struct Pull {
+  Four way;     // a multiple of the direction, m
+  float along;  // its product with the way between the two, m2
+};
+
+/// `now`: the way from one to the other, and now2 = now . now; `before`: where the step began, carrying its own square.
 /// A pull along the way where the step ends lags behind it by its turn in the step and brakes every swing: a pendulum
 /// of angular speed W by 3/8 W^2 dt, 1/s, and cloth under tension by more. Where the way has turned by more than 30
 /// degrees, or become longer or shorter by a seventh, it is `now`.
-inline Four pull_direction(const Four& now, const Four& before) {
+inline Pull pull_direction(const Four& now, float now2, const Four& before) {
   constexpr float kCosine = 0.87f;
-  return dot(now, before) > kCosine * std::max(dot(now, now), dot(before, before)) ? before : now;
+  const float along = dot(now, before);
+  if (along > kCosine * std::max(now2, before[3])) return {without_load(before), along};
+  return {now, now2};
 }
 
 }  // namespace pleat

@@ -13,15 +13,14 @@ struct alignas(16) Vec4 {
 /// Of as many particles as one cloth has: scratch of what works on edges and hinges.
 struct Vec4Columns {
   Column<Vec4> position, velocity, force;  // m and, w, 1/kg of inverse mass; m/s; N
-  Column<Vec4> previous;                   // m
 
-  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), velocity(m), force(m), previous(m) {}
+  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), velocity(m), force(m) {}
   void make_room(std::size_t particles) {
-    for (Column<Vec4>* c : {&position, &velocity, &force, &previous}) {
+    for (Column<Vec4>* c : {&position, &velocity, &force}) {
       if (c->size() < particles) c->resize(particles);
     }
   }
-  bool holds(std::size_t particles) const { return previous.size() >= particles; }
+  bool holds(std::size_t particles) const { return force.size() >= particles; }
 };
 
 }  // namespace pleat

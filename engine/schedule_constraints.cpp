@@ -2,6 +2,7 @@
 #include "components/tethers.h"
 #include "engine/schedule_row.h"
 #include "engine/sleep.h"
+#include "systems/edge_ways.h"
 #include "systems/elastic_projection.h"
 #include "systems/energy_check.h"
 #include "systems/finite_guard.h"
@@ -45,7 +46,7 @@ void limit_stretch(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .relaxation = relaxation_of(t),
-                        .previous = t.previous,
+                        .way = t.worker.edge_way.data(),
                         .position = t.position,
                         .packed = &t.worker.packed},
       t.worker.stats);
@@ -96,20 +97,30 @@ void check_energy(ClothTick& t) {
   if (!(speed <= bound.least()) && !(speed <= bound.run())) t.trouble = true;
 }
 
+/// Whether the edges of the cloth are solved one by one, by the integrator.
+const char* with_projection(const World&, const ClothRecord& c) {
+  return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
+         : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
+                                                             : kNeeded;
+}
+
 constexpr Row kRows[] = {
-    // Before contact is looked for, which then is where the springs leave the cloth.
-    {Phase::kContact, "elastic_projection",
-     [](const World&, const ClothRecord& c) {
-       return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
-              : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
-                                                                  : kNeeded;
+    {Phase::kContact, "edge_ways",
+     [](const World& w, const ClothRecord& c) {
+       return with_projection(w, c) == kNeeded ? kNeeded : with_stretch_limit(w, c);
      },
+     [](ClothTick& t) {
+       run(EdgeWays{
+           .garment = &t.garment, .previous = t.previous, .packed = &t.worker.packed, .way = t.worker.edge_way.data()});
+     }},
+    // Before contact is looked for, which then is where the springs leave the cloth.
+    {Phase::kContact, "elastic_projection", with_projection,
      [](ClothTick& t) {
        run(ElasticProjection{.garment = &t.garment,
                              .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
                              .dt = t.dt,
-                             .previous = t.previous,
+                             .way = t.worker.edge_way.data(),
                              .position = t.position,
                              .packed = &t.worker.packed});
      }},

@@ -18,6 +18,7 @@ namespace pleat {
 /// cloths have counted since the tick began.
 struct Worker {
   Vec4Columns packed;
+  Column<Vec4> edge_way;       // m, systems/edge_ways.h
   HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
   CapsuleCandidateColumns capsule_candidates;
@@ -37,6 +38,7 @@ struct Worker {
 
   Worker(std::uint32_t k, std::pmr::memory_resource* m)
       : packed(m),
+        edge_way(m),
         hinge_scratch(m),
         capsule_poses(m),
         capsule_candidates(m),

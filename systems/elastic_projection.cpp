@@ -10,6 +10,8 @@
 namespace pleat {
 namespace {
 
+constexpr float kTiny = 1e-30f;  // what an edge without length is divided by
+
 PLEAT_KERNEL void project(const ElasticProjection& in) {
   const std::uint32_t* first = in.garment->edge_particle[0].data();
   const std::uint32_t* second = in.garment->edge_particle[1].data();
@@ -17,18 +19,18 @@ PLEAT_KERNEL void project(const ElasticProjection& in) {
   const EdgeLine straight = in.law.straight(), buckled = in.law.buckled();
   const float dt2 = in.dt * in.dt;
   const float soft = 1.0f / (straight.stiffness * dt2), softer = 1.0f / (buckled.stiffness * dt2);  // kg
-  const float shortest = 1.0f - in.law.buckling;
+  const std::uint32_t count = in.garment->edge_count;
+  const Vec4* ways = in.way;
   Vec4* packed = in.packed->position.data();
-  const Vec4* previous = in.packed->previous.data();
-  for (std::uint32_t e = 0; e < in.garment->edge_count; ++e) {
+  for (std::uint32_t e = 0; e < count; ++e) {
     const std::uint32_t i = first[e], j = second[e];
     const Four a = load_four(packed[i]), b = load_four(packed[j]), d = way_between(a, b);
-    const Four way = pull_direction(d, way_between(load_four(previous[i]), load_four(previous[j])));
-    const float wi = a[3], wj = b[3], rest = rest_length[e], l = std::sqrt(dot(d, d));
-    const float yielding = (wi + wj) * dot(way, d) / std::max(l, 1e-9f);
-    float share = (l - straight.rest * rest) / (soft * rest + yielding);
-    if (l - share * yielding < shortest * rest) share = (l - buckled.rest * rest) / (softer * rest + yielding);
-    const Four pull = way * share;
+    const float wi = a[3], wj = b[3], rest = rest_length[e], l2 = dot(d, d), l = std::sqrt(l2);
+    const auto [way, along] = pull_direction(d, l2, load_four(ways[e]));
+    const float yielding = (wi + wj) * along, inertia = rest * l;
+    const float share = (l - straight.rest * rest) * l / std::max(soft * inertia + yielding, kTiny);
+    const float buckled_share = (l - buckled.rest * rest) * l / std::max(softer * inertia + yielding, kTiny);
+    const Four pull = way * std::max(share, buckled_share);  // the law is the larger of its two lines
     store(a + pull * wi, packed[i]);
     store(b - pull * wj, packed[j]);
   }
@@ -37,7 +39,7 @@ PLEAT_KERNEL void project(const ElasticProjection& in) {
 }  // namespace
 
 bool ElasticProjection::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && previous.x != nullptr && position.x != nullptr &&
+  return garment != nullptr && inverse_mass != nullptr && way != nullptr && position.x != nullptr &&
          law.stiffness > 0.0f && law.buckling >= 0.0f && dt > 0.0f && packed != nullptr &&
          packed->holds(garment->particle_count);
 }
@@ -45,7 +47,6 @@ bool ElasticProjection::validate() const {
 void ElasticProjection::run() const {
   run_wide(widest_vectors(), [this] {
     pack(position, inverse_mass, garment->particle_count, packed->position.data());
-    pack(previous, nullptr, garment->particle_count, packed->previous.data());
     project(*this);
     unpack(packed->position.data(), garment->particle_count, position);
   });

@@ -41,9 +41,9 @@ TEST(Schedule, PhasesOfTheTableNeverGoBack) {
 TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
-  for (const char* name :
-       {"pin_motion", "elastic_projection", "hinge_bending", "edge_damping", "gravity", "air_damping", "inner_friction",
-        "euler_integration", "stretch_constraint", "velocity_update", "finite_guard", "rounding_hold"}) {
+  for (const char* name : {"pin_motion", "edge_ways", "elastic_projection", "hinge_bending", "edge_damping", "gravity",
+                           "air_damping", "inner_friction", "euler_integration", "stretch_constraint",
+                           "velocity_update", "finite_guard", "rounding_hold"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
   EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: edges are projected"));

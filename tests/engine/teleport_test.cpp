@@ -62,9 +62,9 @@ TEST(Teleport, AFoundJumpChangesNothingButThePlace) {
   jumps.step();
   EXPECT_EQ(jumps.stats().teleports, 1u);
   EXPECT_LT(distance_after(kJump, stays.particles(stays.cloth_id), jumps.particles(jumps.cloth_id)), 1e-4f);
-  // Ever after. Folds differ by rounding at most, which contact makes more of.
-  stays.step(30), jumps.step(30);
-  EXPECT_LT(distance_after(kJump, stays.particles(stays.cloth_id), jumps.particles(jumps.cloth_id)), 5e-3f);
+  // Ever after. Folds differ by rounding, which contact doubles every three ticks: another 15 would make it 6 mm.
+  stays.step(15), jumps.step(15);
+  EXPECT_LT(distance_after(kJump, stays.particles(stays.cloth_id), jumps.particles(jumps.cloth_id)), 1e-3f);
   EXPECT_EQ(jumps.stats().teleports, 1u);
   EXPECT_EQ(stays.stats().teleports, 0u);
 }

@@ -62,7 +62,7 @@ void guard(Sheet& s) {
 }
 void stretch(Sheet& s) {
   Stats stats;
-  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, 1.0f, s.previous, s.position, &s.packed}.run(stats);
+  StretchConstraint{&s.garment, s.inverse_mass, 0.001f, 1.0f, s.ways(), s.position, &s.packed}.run(stats);
 }
 
 const Case kCases[] = {
@@ -111,7 +111,7 @@ const Case kCases[] = {
      {"position", "velocity"}},
     {"ElasticProjection",
      [](Sheet& s) {
-       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, kDt, s.previous, s.position, &s.packed}.run();
+       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, kDt, s.ways(), s.position, &s.packed}.run();
      },
      {"position"}},
     {"ImplicitIntegration",

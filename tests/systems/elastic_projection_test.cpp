@@ -15,7 +15,7 @@ ElasticProjection job(Sheet& s, float stiffness) {
           .inverse_mass = s.inverse_mass,
           .law = {stiffness},
           .dt = kDt,
-          .previous = s.previous,
+          .way = s.ways(),
           .position = s.position,
           .packed = &s.packed};
 }
@@ -35,7 +35,7 @@ TEST(ElasticProjection, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.inverse_mass = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.previous = {};
+  bad = good, bad.way = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.position = {};
   EXPECT_FALSE(bad.validate());

@@ -13,6 +13,7 @@
 #include "components/particles.h"
 #include "components/shapes.h"
 #include "components/vec4.h"
+#include "systems/edge_ways.h"
 
 namespace pleat {
 
@@ -23,6 +24,7 @@ struct Sheet {
   Garment garment;
   ParticleColumns particles;
   Vec4Columns packed;
+  Column<Vec4> edge_way;
   HingeScratch hinge_scratch;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;
@@ -33,6 +35,7 @@ struct Sheet {
       : garment(build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource())),
         particles(std::pmr::new_delete_resource()),
         packed(std::pmr::new_delete_resource()),
+        edge_way(std::pmr::new_delete_resource()),
         hinge_scratch(std::pmr::new_delete_resource()),
         count(garment.particle_count) {
     for (Vec3Column* column :
@@ -40,6 +43,7 @@ struct Sheet {
       column->resize(count);
     }
     packed.make_room(count);
+    edge_way.resize(garment.edge_count);
     hinge_scratch.make_room(garment.hinge_count);
     particles.inverse_mass.resize(count);
     particles.mass.resize(count);
@@ -53,6 +57,11 @@ struct Sheet {
     }
   }
 
+  /// Where the edges point at `previous`.
+  const Vec4* ways() {
+    EdgeWays{&garment, previous, &packed, edge_way.data()}.run();
+    return edge_way.data();
+  }
   void clear_force() {
     for (std::uint32_t i = 0; i < count; ++i) force.set(i, {});
   }

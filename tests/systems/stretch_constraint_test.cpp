@@ -11,7 +11,7 @@ StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
   return {.garment = &sheet.garment,
           .inverse_mass = sheet.inverse_mass,
           .limit = limit,
-          .previous = sheet.previous,
+          .way = sheet.ways(),
           .position = sheet.position,
           .packed = &sheet.packed};
 }
@@ -35,7 +35,7 @@ TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.inverse_mass = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.previous = {};
+  bad = good, bad.way = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.position = {};
   EXPECT_FALSE(bad.validate());
