@@ -79,14 +79,19 @@ inline void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin,
   store(lanes.x, to.x + begin, count), store(lanes.y, to.y + begin, count), store(lanes.z, to.z + begin, count);
 }
 
+/// The first `count` of them.
+inline LaneMask first_lanes(std::size_t count) {
+  constexpr Lanes kPlace{0, 1, 2, 3, 4, 5, 6, 7};
+  return kPlace < static_cast<float>(count);
+}
+
 /// The largest value(lanes from i on) of count, or 0; lanes from `count` on do not count.
 template <class Value>
 inline float largest(std::size_t count, const Value& value) {
-  constexpr Lanes kPlace{0, 1, 2, 3, 4, 5, 6, 7};
   Lanes most{};
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) most = max(value(i), most);
-  if (i < count) most = max(kPlace < static_cast<float>(count - i) ? value(i) : Lanes{}, most);
+  if (i < count) most = max(first_lanes(count - i) ? value(i) : Lanes{}, most);
   return largest(most);
 }
 

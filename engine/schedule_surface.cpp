@@ -154,6 +154,7 @@ constexpr Row kRows[] = {
                             .half_space_count = w.planes.size(),
                             .t = t.t1,
                             .clearance = surface_clearance(t),
+                            .moved = t.worker.moved.data(),
                             .planes = clearance_planes(t),
                             .drawn_position = t.drawn_position});
      }},

@@ -66,6 +66,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   }
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
     at_least(worker.footprint, pattern->vertex_count);
+    at_least(worker.moved, pattern->vertex_count);
     at_least(worker.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
     for (const MeshRecord& body : world.meshes) at_least(worker.near_triangles, body.mesh.triangles.size() / 3);
   }

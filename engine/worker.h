@@ -27,6 +27,7 @@ struct Worker {
   NearScratch near_scratch;  // empty unless cloth touches cloth
   FoldChoices fold_choices;  // empty unless a cloth folds
   Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles
+  Column<float> moved;       // m, from there to where they are drawn
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
@@ -47,6 +48,7 @@ struct Worker {
         near_scratch(m),
         fold_choices(m),
         footprint(m),
+        moved(m),
         clearance_planes(m),
         near_triangles(m),
         fold_scratch(m),

@@ -1,6 +1,8 @@
 // Which of a few features of a cloth may be near a capsule, side by side.
 #pragma once
 
+#include <limits>
+
 #include "components/garment.h"
 #include "components/lanes.h"
 #include "components/wide.h"
@@ -39,6 +41,7 @@ struct EdgeLanes {
   Vec3Lanes start, along;
 
   EdgeLanes() = default;
+  PLEAT_KERNEL EdgeLanes(const Vec3Lanes& from, const Vec3Lanes& to) : start(from), along(to - from) {}
   PLEAT_KERNEL EdgeLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j)
       : start(gather(position, i)), along(gather(position, j) - start) {}
 };
@@ -46,6 +49,7 @@ struct EdgeLanes {
 /// As closest_between_segments, in float: where the two are nearly parallel, off by up to kLaneRounding.
 struct EdgeDistance {
   Lanes s, t;        // along the edge, along the core
+  Vec3Lanes away;    // from the core to the edge there, m
   Lanes distance2;   // m2
   LaneMask crosses;  // at an angle of more than 2 degrees: then s and t are good to 1e-4
 
@@ -55,7 +59,7 @@ struct EdgeDistance {
     const Lanes open = abs(uu * core.axis2 - uv * uv) + 1e-24f;
     const Lanes on_lines = clamped((uv * vw - uw * core.axis2) / open);
     t = clamped((uv * on_lines + vw) * core.inverse), s = clamped((uv * t - uw) / uu);
-    const Vec3Lanes away = w + u * s - core.axis * t;
+    away = w + u * s - core.axis * t;
     distance2 = dot(away, away);
     crosses = open > 1e-3f * uu * core.axis2;
   }
@@ -106,5 +110,34 @@ PLEAT_KERNEL LaneMask is_under(const Core& core, const FaceLanes& face) {
   const FaceDistance a(face, core.a), b(face, core.b);
   return ((a.height2 < core.reach2) & (a.beside2 < kBeside2)) | ((b.height2 < core.reach2) & (b.beside2 < kBeside2));
 }
+
+/// From the core to where triangles are nearest to it, m; as gap_to_triangle without taper, with the rounding of
+/// EdgeDistance.
+struct TriangleGap {
+  Vec3Lanes away;
+  Lanes distance2 = all(std::numeric_limits<float>::max());
+
+  PLEAT_KERNEL TriangleGap(const Core& core, const Vec3Lanes& a, const Vec3Lanes& b, const Vec3Lanes& c) {
+    for (const Vec3Lanes& corner : {a, b, c}) consider(away_from(core, corner));
+    for (const EdgeLanes& side : {EdgeLanes(a, b), EdgeLanes(b, c), EdgeLanes(c, a)}) {
+      consider(EdgeDistance(core, side).away);
+    }
+    const Vec3Lanes u = b - a, v = c - a, area = cross(u, v);
+    const Lanes area2 = dot(area, area);
+    for (const Vec3Lanes& end : {core.a, core.b}) {
+      const Vec3Lanes w = end - a;
+      const Lanes wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
+      const LaneMask over = (wb > 0.0f) & (wc > 0.0f) & (wb + wc < area2);
+      consider(area * (-dot(w, area) / (over ? area2 : all(1.0f))), over);
+    }
+  }
+
+ private:
+  PLEAT_KERNEL void consider(const Vec3Lanes& found, const LaneMask& valid = LaneMask{} - 1) {
+    const Lanes found2 = dot(found, found);
+    const LaneMask nearer = valid & (found2 < distance2);
+    away = choose(nearer, found, away), distance2 = nearer ? found2 : distance2;
+  }
+};
 
 }  // namespace pleat

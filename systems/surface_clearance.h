@@ -27,7 +27,7 @@ namespace pleat {
 /// degrees); where they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are
 /// outside. Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
 ///         planes that other systems have gathered already
-/// Writes: drawn_position (V) m; planes, which are settled
+/// Writes: drawn_position (V) m; planes, which are settled; moved, scratch, in whole lanes into the padding
 /// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
 struct SurfaceClearance {
   const Garment* garment = nullptr;
@@ -39,6 +39,7 @@ struct SurfaceClearance {
   std::size_t half_space_count = 0;
   float t = 1.0f;          // fraction of the tick at which the half-spaces are asked for
   float clearance = 0.0f;  // m
+  float* moved = nullptr;  // (V) m, scratch: from the footprint to where the vertex is drawn
   ClearanceList planes;
   Vec3View drawn_position;
 

@@ -23,11 +23,13 @@ struct Clearance {
   std::vector<CapsulePose> capsules;
   std::vector<PlaneCollider> half_spaces = {};
   Vec3Column footprint{std::pmr::get_default_resource()};
+  Column<float> moved{std::pmr::get_default_resource()};
   std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
   std::uint32_t count = 0;
 
   SurfaceClearance system() {
     footprint.resize(surface.pattern.vertex_count);
+    moved.resize(surface.pattern.vertex_count);
     Tessellation flat = surface.tessellation();
     flat.mode = SurfaceMode::kFlat;
     flat.drawn_position = footprint.view();
@@ -40,6 +42,7 @@ struct Clearance {
             .half_spaces = half_spaces.data(),
             .half_space_count = half_spaces.size(),
             .clearance = kClearance,
+            .moved = moved.data(),
             .planes = {planes.data(), static_cast<std::uint32_t>(planes.size()), &count},
             .drawn_position = surface.drawn.view()};
   }
@@ -261,6 +264,8 @@ TEST(SurfaceClearance, ValidateNamesWhatIsMissing) {
   bad = good, bad.clearance = -1.0f;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.footprint = {};
+  EXPECT_FALSE(bad.validate());
+  bad = good, bad.moved = nullptr;
   EXPECT_FALSE(bad.validate());
 }
 
