@@ -1,15 +1,13 @@
 // The program `ablation`: what each part that a scene may do without costs there, and what is lost without it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/ablation/worth.h"
 #include "bench/machine.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/scene_reader.h"
 
@@ -33,19 +31,14 @@ int run_program(int argc, char** argv) {
   bool quick = false;
   uint32_t rounds = 7;
   std::vector<std::string> names;
-  std::filesystem::path json_path;
   app.add_flag("--quick", quick, "100 frames of smaller scenes, two rounds, without what comes after them");
   app.add_option("--scene", names, "only this one, of `pleat list` or the path of a JSON file; may be repeated")
       ->type_name("NAME");
   auto* rounds_option =
       app.add_option("--rounds", rounds, "in which all variants are timed in turn")->check(CLI::Range(1, 1000));
   rounds_option->capture_default_str();
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
   if (quick && rounds_option->empty()) rounds = 2;
   if (names.empty()) names = quick ? kQuickScenes : kScenes;
 
@@ -57,8 +50,7 @@ int run_program(int argc, char** argv) {
     if (quick) request.frames = 100;
     scenes.push_back(demo::load_scene(api, request));
   }
-  std::optional<demo::OutputFile> json;
-  if (!json_path.empty()) json.emplace(json_path);
+  json.open();
   std::vector<SceneWorth> worths;
   {
     demo::Progress progress("leaving out, round or part", uint32_t(scenes.size()) * worth_steps(rounds));
@@ -72,9 +64,7 @@ int run_program(int argc, char** argv) {
     print_worth(worth);
     figures.push_back(worth_json(worth));
   }
-  if (json) {
-    json->commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
-  }
+  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
   return 0;
 }
 

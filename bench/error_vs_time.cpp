@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@
 #include "bench/fine_square.h"
 #include "bench/machine.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/settings.h"
 
@@ -134,7 +133,7 @@ int run_program(int argc, char** argv) {
   bool quick = false, again = false, dominant = false, ensembles = false;
   std::vector<std::string> words, known, changes;
   for (const RestScene& scene : rest_scenes()) known.emplace_back(scene.name);
-  std::filesystem::path folder = PLEAT_FINE_DIR, json_path, svg_path;
+  std::filesystem::path folder = PLEAT_FINE_DIR;
   app.add_flag("--quick", quick, "two densities and fewer methods");
   app.add_option("--scene", words, "only this one; may be repeated")->type_name("NAME")->check(CLI::IsMember(known));
   auto* dominant_flag =
@@ -143,19 +142,13 @@ int run_program(int argc, char** argv) {
                                       "instead, cloth that buckles or moves, of which only what is common to many "
                                       "starts can be compared")
                              ->excludes(dominant_flag);
-  app.add_option("--svg", svg_path, "draw the curves")
-      ->type_name("FILE")
-      ->excludes(dominant_flag)
-      ->excludes(ensembles_flag);
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
+  demo::OutputOption svg(app, "--svg", "draw the curves");
+  svg.option().excludes(dominant_flag)->excludes(ensembles_flag);
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
   app.add_option("--set", changes, "a setting of our cloths, see `pleat list`")->type_name("KEY=VALUE");
   app.add_option("--fine", folder, "where the references are")->type_name("DIR")->capture_default_str();
   app.add_flag("--regenerate", again, "compute the references anew and keep them there, no more");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = demo::library();
   std::vector<const RestScene*> scenes;
@@ -166,14 +159,13 @@ int run_program(int argc, char** argv) {
     ensembles ? regenerate_ensembles(api, folder) : regenerate(api, folder, scenes);
     return 0;
   }
-  std::optional<demo::OutputFile> json, svg;
-  if (!json_path.empty()) json.emplace(json_path);
-  if (!svg_path.empty()) svg.emplace(svg_path);
+  json.open();
+  svg.open();
   nlohmann::ordered_json figures = {{"quick", quick}, {"set", changes}};
   if (ensembles) {
     figures["ensembles"] = of_many_starts(api, folder, changes, quick);
     figures["machine"] = describe_machine(api);
-    if (json) json->commit(figures.dump(2) + "\n");
+    json.commit(figures.dump(2) + "\n");
     return 0;
   }
   const std::vector<Arena> all = arenas(api, folder, scenes, changes);
@@ -182,11 +174,11 @@ int run_program(int argc, char** argv) {
   } else {
     const std::vector<SceneScores> scores = compete(api, all, quick);
     print_scores(scores);
-    if (svg) svg->commit(draw_scores(scores));
+    svg.commit(draw_scores(scores));
     figures["scenes"] = scores_json(scores);
   }
   figures["machine"] = describe_machine(api);
-  if (json) json->commit(figures.dump(2) + "\n");
+  json.commit(figures.dump(2) + "\n");
   return 0;
 }
 

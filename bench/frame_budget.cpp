@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "bench/budget_report.h"
 #include "bench/starts.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/scenes/scene_reader.h"
 #include "engine/pleat.h"
 
@@ -38,7 +37,6 @@ int run_program(int argc, char** argv) {
   uint32_t repeat = 5;
   uint32_t starts = 1;
   uint32_t threads = 1;
-  std::filesystem::path json_path;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
   app.add_option("--clip", request.clip, "in place of the scene's motion")->type_name("BVH");
   app.add_option("--speed", request.speed, "times as fast as the scene's motion is")->check(CLI::Range(0.01, 100.0));
@@ -63,26 +61,21 @@ int run_program(int argc, char** argv) {
   app.add_option("--peer", peer, "in turn with Bullet's soft body, `bullet`, or `bullet:N` for N iterations, not 4")
       ->check(CLI::Validator([](std::string& text) { return parse_peer(text) ? "" : "not bullet or bullet:1..1000"; },
                              "PEER"));
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
+  pleat::demo::OutputOption json(app, "--json", "write the figures for scripts");
+  if (const auto status = pleat::demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = pleat::demo::library();
   pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
   def.workers = threads;
   def.budget = tick_budget;
-  std::optional<pleat::demo::OutputFile> json;
-  if (!json_path.empty()) json.emplace(json_path);
+  json.open();
   const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat, parse_peer(peer));
   std::vector<pleat::bench::Start> from_starts;
   if (starts > 1) from_starts = pleat::bench::measure_starts(api, def, starts);
   if (json) {
     nlohmann::ordered_json figures = pleat::bench::budget_json(api, def, budget);
     if (starts > 1) figures["starts"] = pleat::bench::starts_json(from_starts);
-    json->commit(figures.dump(2) + "\n");
+    json.commit(figures.dump(2) + "\n");
   }
   pleat::bench::print_budget(def, budget);
   if (starts > 1) pleat::bench::print_starts(from_starts);

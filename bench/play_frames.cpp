@@ -7,6 +7,7 @@
 
 #include "bench/machine.h"
 #include "demo/program/entry.h"
+#include "demo/program/options.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
 #include "demo/scenes/scene_reader.h"
@@ -26,11 +27,7 @@ int run_program(int argc, char** argv) {
       ->type_name("KEY=VALUE");
   bool explain = false;
   app.add_flag("--explain", explain, "print which systems run, and why others do not");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
   const pleat_api& api = demo::library();
   demo::Scene scene(api, demo::load_scene(api, request));
   if (explain)

@@ -1,8 +1,6 @@
 // The program `scaling`: whether what a frame costs grows with the number of particles, and no faster.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +8,7 @@
 #include "bench/scaling/growth.h"
 #include "bench/scaling/growth_chart.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 
 namespace {
@@ -58,23 +56,17 @@ int run_program(int argc, char** argv) {
       "scaling");
   bool quick = false;
   uint32_t rounds = 3;
-  std::filesystem::path svg_path, json_path;
   app.add_flag("--quick", quick, "three sizes each, up to 32 and 64");
   app.add_option("--rounds", rounds, "in which all sizes run in turn; the least of a frame counts")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  app.add_option("--svg", svg_path, "draw it")->type_name("FILE");
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  demo::OutputOption svg(app, "--svg", "draw it");
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = demo::library();
-  std::optional<demo::OutputFile> svg, json;
-  if (!svg_path.empty()) svg.emplace(svg_path);
-  if (!json_path.empty()) json.emplace(json_path);
+  svg.open();
+  json.open();
   std::vector<Growth> scenes;
   {
     const std::vector<Range>& ranges = quick ? kQuick : kFull;
@@ -91,10 +83,8 @@ int run_program(int argc, char** argv) {
     print(growth);
     figures.push_back(json_of(growth));
   }
-  if (svg) svg->commit(growth_chart(scenes));
-  if (json) {
-    json->commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
-  }
+  svg.commit(growth_chart(scenes));
+  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
   return 0;
 }
 

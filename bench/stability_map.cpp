@@ -2,9 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +11,7 @@
 #include "bench/stability/grid.h"
 #include "bench/stability/heat_map.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/scene_reader.h"
 #include "demo/scenes/settings.h"
@@ -60,7 +58,7 @@ void add_counts(nlohmann::ordered_json& to, const Counts& counts, size_t cells) 
 
 /// Runs the grid, prints a row for each integrator; true where nothing broke.
 bool run_grid(const pleat_api& api, const demo::SceneDef& scene, const StabilityGrid& grid,
-              nlohmann::ordered_json& figures, std::optional<demo::OutputFile>& svg) {
+              nlohmann::ordered_json& figures, demo::OutputOption& svg) {
   demo::Progress progress("stability map, cell", uint32_t(grid.cells()));
   std::vector<CellResult> results;
   for (size_t i = 0; i < grid.cells(); ++i) {
@@ -82,7 +80,7 @@ bool run_grid(const pleat_api& api, const demo::SceneDef& scene, const Stability
     add_counts(by_integrator.emplace_back(nlohmann::ordered_json{{"name", names.back()}}), counts, cells);
   }
   figures["integrators"] = by_integrator;
-  if (svg) svg->commit(heat_map(grid, results, names));
+  svg.commit(heat_map(grid, results, names));
   return unbroken(count(results));
 }
 
@@ -112,7 +110,6 @@ int run_program(int argc, char** argv) {
       "stability_map");
   bool quick = false, full = false, only_events = false;
   std::vector<std::string> words;
-  std::filesystem::path json_path, svg_path;
   std::vector<std::string> known;
   for (const demo::SettingWord& word : demo::kIntegrators) known.emplace_back(word.name);
   auto* quick_flag = app.add_flag("--quick", quick, "some corners of the grid, 1 s each (what the tests run)");
@@ -122,13 +119,10 @@ int run_program(int argc, char** argv) {
       ->type_name("NAME")
       ->check(CLI::IsMember(known))
       ->excludes(events_flag);
-  app.add_option("--svg", svg_path, "draw a heat map")->type_name("FILE")->excludes(events_flag);
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  demo::OutputOption svg(app, "--svg", "draw a heat map");
+  svg.option().excludes(events_flag);
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = demo::library();
   const demo::SceneDef scene = hanging_square(api);
@@ -136,16 +130,15 @@ int run_program(int argc, char** argv) {
   if (!words.empty()) {
     std::erase_if(grid.integrators, [&](uint32_t i) { return std::ranges::find(words, name_of(i)) == words.end(); });
   }
-  std::optional<demo::OutputFile> json, svg;
-  if (!json_path.empty()) json.emplace(json_path);
-  if (!svg_path.empty()) svg.emplace(svg_path);
+  json.open();
+  svg.open();
 
   nlohmann::ordered_json figures;
   bool good = true;
   if (!only_events) good = run_grid(api, scene, grid, figures, svg);
   if (words.empty()) good = run_events(api, scene, full ? 1'000'000 : quick ? 0 : 20'000, figures) && good;
   figures["machine"] = describe_machine(api);
-  if (json) json->commit(figures.dump(2) + "\n");
+  json.commit(figures.dump(2) + "\n");
   return good ? 0 : demo::kOwnFailure;
 }
 

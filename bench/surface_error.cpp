@@ -3,13 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "bench/machine.h"
 #include "bench/surface_judge.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 #include "demo/scenes/settings.h"
 #include "engine/pleat.h"
@@ -52,7 +51,7 @@ pleat_cloth_settings settings_with(const pleat_api& api, std::span<const std::st
 }
 
 void compare(const pleat_api& api, const std::filesystem::path& folder, const pleat_cloth_settings& settings,
-             std::optional<demo::OutputFile>& json) {
+             demo::OutputOption& json) {
   const std::vector<SurfaceTruth> truths = surface_truths(folder);
   std::vector<uint32_t> modes;
   for (const demo::SettingWord& surface : demo::kSurfaces) modes.push_back(surface.value);
@@ -87,7 +86,7 @@ void compare(const pleat_api& api, const std::filesystem::path& folder, const pl
       ++row;
     }
   }
-  if (json) json->commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}}.dump(2) + "\n");
+  json.commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}}.dump(2) + "\n");
 }
 
 int run_program(int argc, char** argv) {
@@ -95,22 +94,17 @@ int run_program(int argc, char** argv) {
       "How far the drawn surface is from the truth: over particles that lie on a known surface, the distance of that\n"
       "surface to what is drawn, the error of the area, and what the drawing costs.",
       "surface_error");
-  std::filesystem::path folder = PLEAT_FINE_DIR, json_path;
+  std::filesystem::path folder = PLEAT_FINE_DIR;
   std::vector<std::string> changes;
   bool again = false;
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
   app.add_option("--fine", folder, "where the fine solutions are")->type_name("DIR")->capture_default_str();
   app.add_option("--set", changes, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
   app.add_flag("--regenerate", again, "compute the fine solutions anew (some minutes) and keep them there");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = pleat::demo::library();
-  std::optional<demo::OutputFile> json;
-  if (!json_path.empty()) json.emplace(json_path);
+  json.open();
   if (again) regenerate(api, folder);
   compare(api, folder, settings_with(api, changes), json);
   return 0;

@@ -2,16 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/machine.h"
 #include "bench/validation/check.h"
 #include "demo/program/entry.h"
-#include "demo/program/output.h"
+#include "demo/program/options.h"
 #include "demo/program/progress.h"
 #include "engine/pleat.h"
 
@@ -88,21 +86,15 @@ int run_program(int argc, char** argv) {
   CLI::App app(about, "validate");
   std::vector<std::string> names;
   bool quick = false;
-  std::filesystem::path json_path;
   app.add_option("--case", names, "only this one; may be repeated")->type_name("NAME")->check(CLI::IsMember(known));
   app.add_flag("--quick", quick, "only the cases that take no time");
-  app.add_option("--json", json_path, "write the figures for scripts")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : demo::kBadInput;
-  }
+  demo::OutputOption json(app, "--json", "write the figures for scripts");
+  if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = demo::library();
-  std::optional<demo::OutputFile> json;
-  if (!json_path.empty()) json.emplace(json_path);
+  json.open();
   const std::vector<Outcome> outcomes = run_all(api, chosen(names, quick));
-  if (json) json->commit(as_json(api, outcomes).dump(2) + "\n");
+  json.commit(as_json(api, outcomes).dump(2) + "\n");
   return print(outcomes) == 0 ? 0 : demo::kOwnFailure;
 }
 

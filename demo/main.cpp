@@ -6,6 +6,7 @@
 #include "demo/compare.h"
 #include "demo/inform.h"
 #include "demo/program/entry.h"
+#include "demo/program/options.h"
 #include "demo/run.h"
 #include "engine/pleat.h"
 
@@ -83,11 +84,7 @@ int run_program(int argc, char** argv, const pleat_api& api) {
   CompareOptions comparison;
   add_compare_options(*compare, comparison);
   explain->add_option("scene", options.scene.scene, "as for run")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
+  if (const auto status = pleat::demo::parse(app, argc, argv)) return *status;
   if (*list) pleat::demo::list(api);
   if (*run) pleat::demo::run(api, options);
   if (*compare) pleat::demo::compare(api, comparison);
