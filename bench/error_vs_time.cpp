@@ -8,6 +8,7 @@
 
 #include "bench/error/dominant.h"
 #include "bench/error/ensemble.h"
+#include "bench/error/meshes.h"
 #include "bench/error/scoreboard.h"
 #include "bench/fine_square.h"
 #include "bench/machine.h"
@@ -98,6 +99,28 @@ nlohmann::ordered_json blame(const pleat_api& api, const std::vector<Arena>& all
   return figures;
 }
 
+/// Pleat alone over meshes of several patterns; draws them where `svg` is.
+nlohmann::ordered_json over_meshes(const pleat_api& api, const std::filesystem::path& folder,
+                                   const std::vector<const RestScene*>& scenes, const std::vector<Arena>& all,
+                                   demo::OutputOption& svg) {
+  std::optional<EarlierCurve> earlier;
+  if (svg) earlier = read_earlier(folder / "earlier.json");
+  std::vector<std::vector<MeshScores>> scores;
+  {
+    demo::Progress progress("over meshes, pattern", uint32_t(all.size() * kPatterns));
+    for (const auto& [scene, reference, settings] : all) {
+      scores.push_back(score_meshes(api, *scene, settings, reference, [&] { progress.step(); }));
+    }
+  }
+  nlohmann::ordered_json figures;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    print_meshes(*scenes[i], scores[i]);
+    figures[std::string(scenes[i]->name)] = meshes_json(scores[i]);
+  }
+  if (earlier) svg.commit(draw_meshes(scenes, scores, *earlier));
+  return figures;
+}
+
 /// Solves the ensembles' references anew.
 void regenerate_ensembles(const pleat_api& api, const std::filesystem::path& folder) {
   demo::Progress progress("solving, start", uint32_t(2 * kMembers * ensemble_scenes().size()));
@@ -130,7 +153,7 @@ int run_program(int argc, char** argv) {
       "only,\n"
       "our surfaces, integrators and densities, the same drawn flat and finer, and Bullet's soft body, in turn.",
       "error_vs_time");
-  bool quick = false, again = false, dominant = false, ensembles = false;
+  bool quick = false, again = false, dominant = false, ensembles = false, meshes = false;
   std::vector<std::string> words, known, changes;
   for (const RestScene& scene : rest_scenes()) known.emplace_back(scene.name);
   std::filesystem::path folder = PLEAT_FINE_DIR;
@@ -142,6 +165,11 @@ int run_program(int argc, char** argv) {
                                       "instead, cloth that buckles or moves, of which only what is common to many "
                                       "starts can be compared")
                              ->excludes(dominant_flag);
+  app.add_flag(
+         "--meshes", meshes,
+         "instead, pleat alone over meshes of several patterns; --svg draws it as it was at an earlier commit, too")
+      ->excludes(dominant_flag)
+      ->excludes(ensembles_flag);
   demo::OutputOption svg(app, "--svg", "draw the curves");
   svg.option().excludes(dominant_flag)->excludes(ensembles_flag);
   demo::OutputOption json(app, "--json", "write the figures for scripts");
@@ -171,6 +199,8 @@ int run_program(int argc, char** argv) {
   const std::vector<Arena> all = arenas(api, folder, scenes, changes);
   if (dominant) {
     figures["dominant"] = blame(api, all, quick);
+  } else if (meshes) {
+    figures["meshes"] = over_meshes(api, folder, scenes, all, svg);
   } else {
     const std::vector<SceneScores> scores = compete(api, all, quick);
     print_scores(scores);

@@ -25,7 +25,7 @@ std::vector<Level> levels(const RestScene& scene) {
   std::vector<Level> all;
   double seconds = 1.5;
   for (uint32_t cut = 1; cut <= 8; cut *= 2) {
-    all.push_back({{(scene.fine.rows - 1) / cut + 1, (scene.fine.columns - 1) / cut + 1, scene.fine.one_way}, seconds});
+    all.push_back({{(scene.fine.rows - 1) / cut + 1, (scene.fine.columns - 1) / cut + 1, scene.fine.pattern}, seconds});
     seconds *= 2.0;
   }
   std::ranges::reverse(all);

@@ -21,8 +21,9 @@ constexpr std::array<Grid, 4> kStrips = {{{3, 11}, {4, 17}, {8, 33}, {16, 65}}};
 constexpr Grid kFineSquareGrid = {65, 65}, kFinestSquareGrid = {129, 129}, kFineStripGrid = {33, 129};
 // Where bending decides. Diagonals of one way bend as the elastica within a percent (error_test), alternating ones
 // zigzag; but under tension those of one way are a net that is stronger one way.
-constexpr Grid kFineBendingGrid = {33, 129, true};
-constexpr std::array<Grid, 4> kBendingStrips = {{{3, 11, true}, {4, 17, true}, {8, 33, true}, {16, 65, true}}};
+constexpr Grid kFineBendingGrid = {33, 129, Pattern::kOneWay};
+constexpr std::array<Grid, 4> kBendingStrips = {
+    {{3, 11, Pattern::kOneWay}, {4, 17, Pattern::kOneWay}, {8, 33, Pattern::kOneWay}, {16, 65, Pattern::kOneWay}}};
 
 bool at_corner(double u, double v) { return (u == 0.0 || u == 1.0) && (v == 0.0 || v == 1.0); }
 
@@ -69,21 +70,56 @@ const RestScene kScenes[] = {
 /// Calls `visit(u, v, particle)` for each particle, row by row.
 template <class F>
 void for_each_particle(Grid grid, F visit) {
+  uint32_t particle = 0;
   for (uint32_t row = 0; row < grid.rows; ++row) {
-    for (uint32_t column = 0; column < grid.columns; ++column) {
-      visit(double(column) / (grid.columns - 1), double(row) / (grid.rows - 1), row * grid.columns + column);
+    const uint32_t shifted = grid.pattern == Pattern::kStaggered ? row % 2 : 0, cells = grid.columns - 1;
+    for (uint32_t column = 0; column < grid.columns + shifted; ++column) {
+      visit(std::clamp((column - 0.5 * shifted) / cells, 0.0, 1.0), double(row) / (grid.rows - 1), particle++);
     }
   }
 }
 
+/// A row and the one below it: one has a particle more and begins half an edge before the other.
+void add_staggered(uint32_t upper, uint32_t lower, uint32_t columns, bool upper_longer, std::vector<uint32_t>& to) {
+  const uint32_t longer = upper_longer ? upper : lower, shorter = upper_longer ? lower : upper;
+  for (uint32_t k = 0; k < columns; ++k) {
+    if (upper_longer) {
+      to.insert(to.end(), {longer + k, shorter + k, longer + k + 1});
+    } else {
+      to.insert(to.end(), {longer + k, longer + k + 1, shorter + k});
+    }
+    if (k + 1 == columns) break;
+    if (upper_longer) {
+      to.insert(to.end(), {shorter + k, shorter + k + 1, longer + k + 1});
+    } else {
+      to.insert(to.end(), {shorter + k, longer + k + 1, shorter + k + 1});
+    }
+  }
+}
+
+demo::TriangleMesh staggered_sheet(Grid grid, float width, float depth) {
+  demo::TriangleMesh mesh;
+  for_each_particle(grid, [&](double u, double v, uint32_t) {
+    mesh.positions.insert(mesh.positions.end(), {float(u - 0.5) * width, 0.0f, float(v - 0.5) * depth});
+  });
+  uint32_t upper = 0;
+  for (uint32_t row = 0; row + 1 < grid.rows; ++row) {
+    const uint32_t lower = upper + grid.columns + row % 2;
+    add_staggered(upper, lower, grid.columns, row % 2 == 1, mesh.triangles);
+    upper = lower;
+  }
+  return mesh;
+}
+
 demo::TriangleMesh flat_sheet(const pleat_api& api, Grid grid, float width, float depth) {
+  if (grid.pattern == Pattern::kStaggered) return staggered_sheet(grid, width, depth);
   pleat_shape_def def;
   api.shape_def_init(&def, sizeof def);
   def.rows = grid.rows;
   def.columns = grid.columns;
   def.width = width;
   def.depth = depth;
-  def.alternate = grid.one_way ? 0 : 1;
+  def.alternate = grid.pattern == Pattern::kAlternating ? 1 : 0;
   uint32_t vertices = 0, triangles = 0;
   api.shape_size(&def, &vertices, &triangles);
   demo::TriangleMesh mesh;

@@ -14,11 +14,18 @@
 
 namespace pleat::bench {
 
-/// Particles along v (rows) and along u (columns) of a rectangle of cloth.
+/// How a rectangle of cloth is cut into triangles.
+enum class Pattern {
+  kAlternating,  ///< squares whose diagonals alternate: four and eight edges meet in turn
+  kOneWay,       ///< squares whose diagonals all run one way
+  kStaggered,    ///< every other row is shifted by half an edge: isosceles triangles
+};
+
+/// Particles along v (rows) and along u (columns) of a rectangle of cloth; a shifted row has one more.
 struct Grid {
   uint32_t rows, columns;
-  bool one_way = false;  ///< all diagonals; else they alternate
-  uint32_t particles() const { return rows * columns; }
+  Pattern pattern = Pattern::kAlternating;
+  uint32_t particles() const { return rows * columns + (pattern == Pattern::kStaggered ? rows / 2 : 0); }
 };
 
 /// A rectangle of cloth that can come to rest in one way only, so that how far a simulation of it is from the truth can

@@ -7,9 +7,11 @@
 #include "bench/bullet_scene.h"
 #include "bench/error/contest.h"
 #include "bench/error/log_chart.h"
+#include "bench/error/meshes.h"
 #include "bench/error/pareto.h"
 #include "bench/error/reference.h"
 #include "bench/fine_square.h"
+#include "demo/input_error.h"
 
 namespace pleat::bench {
 namespace {
@@ -60,6 +62,32 @@ TEST(RestScene, HasAboutAsManyParticlesAsItSays) {
       const demo::SceneDef def = rest_scene_def(api(), scene, grid, rest_settings(api(), scene), 60.0);
       EXPECT_FALSE(def.pins.empty()) << scene.name;
       EXPECT_EQ(start_positions(scene, grid).size(), def.garment.positions.size());
+    }
+  }
+}
+
+/// Every pattern covers the rectangle once, all faces the same side up.
+TEST(RestScene, PatternsAreSheets) {
+  const RestScene& scene = scene_named("bowl");
+  for (const Pattern pattern : {Pattern::kAlternating, Pattern::kOneWay, Pattern::kStaggered}) {
+    for (const uint32_t rows : {2u, 5u, 6u}) {
+      const Grid grid{rows, 7, pattern};
+      const demo::SceneDef def = rest_scene_def(api(), scene, grid, rest_settings(api(), scene), 60.0);
+      const std::vector<float>& x = def.garment.positions;
+      ASSERT_EQ(x.size(), size_t{3} * grid.particles());
+      EXPECT_EQ(start_positions(scene, grid).size(), x.size());
+      EXPECT_EQ(def.pins.size(), 4u);
+      double area = 0.0;
+      const std::vector<uint32_t>& corner = def.garment.triangles;
+      for (size_t t = 0; t < corner.size(); t += 3) {
+        const auto way = [&](size_t k, size_t axis) {
+          return double(x[3 * corner[t + k] + axis]) - double(x[3 * corner[t] + axis]);
+        };
+        const double twice = way(1, 2) * way(2, 0) - way(1, 0) * way(2, 2);
+        EXPECT_GT(twice, 1e-3) << t / 3;
+        area += 0.5 * twice;
+      }
+      EXPECT_NEAR(area, 1.0, 1e-5) << size_t(pattern) << ", " << rows;
     }
   }
 }
@@ -125,6 +153,37 @@ TEST(Contest, EveryDynamicsComesNearTheTruth) {
     EXPECT_GT(score.wrinkles[0], 0.005) << score.method << ", " << score.dynamics;  // m2: the sag of .27 m
   }
 }
+
+TEST(Meshes, EachComesNearTheTruthAndIsDrawn) {
+  RestScene scene = scene_named("catenary");
+  scene.coarse.fill({3, 11});
+  size_t steps = 0;
+  const std::vector<MeshScores> scores =
+      score_meshes(api(), scene, rest_settings(api(), scene), read_reference(PLEAT_FINE_DIR, scene), [&] { ++steps; });
+  EXPECT_EQ(steps, kPatterns);
+  ASSERT_EQ(scores.size(), kPatterns);
+  for (const MeshScores& of_pattern : scores) {
+    for (const MeshScore& score : of_pattern.of_densities) {
+      EXPECT_GT(score.ms, 0.0);
+      EXPECT_GT(score.rms, 1e-5);
+      EXPECT_LT(score.rms, 5e-3);
+    }
+  }
+  const EarlierCurve earlier = read_earlier(std::filesystem::path(PLEAT_FINE_DIR) / "earlier.json");
+  const std::string svg = draw_meshes({&scene}, {scores}, earlier);
+  EXPECT_NE(svg.find(earlier.name), std::string::npos);
+  EXPECT_NE(svg.find("staggered rows"), std::string::npos);
+}
+
+TEST(Meshes, ShiftedRowsHaveNoMiddleLineToPin) {
+  RestScene scene = scene_named("strip");
+  scene.coarse.fill({3, 11});
+  const std::vector<MeshScores> scores =
+      score_meshes(api(), scene, rest_settings(api(), scene), read_reference(PLEAT_FINE_DIR, scene), [] {});
+  EXPECT_EQ(scores.size(), kPatterns - 1);
+}
+
+TEST(Meshes, AnEarlierCurveThatIsNotThereIsNamed) { EXPECT_THROW(read_earlier("no/such/file.json"), demo::InputError); }
 
 }  // namespace
 }  // namespace pleat::bench
