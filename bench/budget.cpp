@@ -181,7 +181,8 @@ std::string stage_group(const std::string& system) {
       {"mesh_candidates", "collision"},    {"mesh_clearance", "clearance"},
       {"fold_sides", "edge_length"},       {"stretch_after_friction", "stretch"},
       {"capsule_candidates", "collision"}, {"rounding_hold", "integration"},
-      {"contact_stick", "collision"},      {"edge_ways", "stretch"}};
+      {"contact_stick", "collision"},      {"edge_ways", "stretch"},
+      {"body_refit", "collision"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

@@ -86,6 +86,8 @@ void settle_poses(World& world) {
 void update_bodies([[maybe_unused]] World& world) {
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies == nullptr) return;
+  const pleat_world_def& host = world.def;
+  if (host.stage != nullptr) host.stage("body_refit", 1, host.stage_user);
   world.bodies->update_capsules(world.capsules);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     MeshRecord& record = world.meshes[i];
@@ -93,6 +95,7 @@ void update_bodies([[maybe_unused]] World& world) {
     world.bodies->update_mesh(i, record.mesh);
     --record.stale_ticks;
   }
+  if (host.stage != nullptr) host.stage("body_refit", 0, host.stage_user);
 #endif
 }
 

@@ -234,6 +234,14 @@ TEST(Schedule, StageCallbackBracketsEverySystemThatRuns) {
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "elastic_projection"), 2);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "stretch_constraint"), 6);
   EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "air_drag"), 0);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "body_refit"), 0);
+#ifdef PLEAT_WITH_COLLISION
+  scene.sphere(0, -9, 0, 0.2f);
+  seen.names.clear();
+  scene.step();
+  EXPECT_EQ(seen.depth, 0);
+  EXPECT_EQ(std::count(seen.names.begin(), seen.names.end(), "body_refit"), 1) << "once a tick, not once a cloth";
+#endif
 }
 
 TEST(Schedule, SubstepsFollowTheLongestInternalStep) {
