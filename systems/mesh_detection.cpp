@@ -11,9 +11,9 @@ namespace {
 
 // Slopes. The sweeps turn what rows were made for; ridges and vertices of the body that are next to be met then have
 // theirs already, else cloth that lies on two of them falls to one and the other by turns. A face beside a pin turns by
-// 0.1 in a substep; its rows are few anyway. Those of an edge are made by less where the next ridge is nearer than the
-// edge is long, since less is missed there.
-constexpr float kTurnOfFace = 0.2f, kTurnOfEdge = 0.05f;
+// 0.1 in a substep, an edge beside one by more. Rows of an edge are made by less where the next ridge is nearer than
+// the edge is long, since less is missed there.
+constexpr float kTurn = 0.2f;
 constexpr float kTouching = 1e-4f;       // m; nearer than this the body's own normal is better than the difference
 constexpr std::size_t kRowsPerFace = 4;  // the deepest body vertices over a face
 
@@ -166,7 +166,7 @@ struct MeshTest {
     Standing* highest = std::max_element(f.standing.data(), f.standing.data() + f.standing_count,
                                          [](const Standing& a, const Standing& b) { return a.height < b.height; });
     if (full && highest->height <= found.height) return;
-    if (!pose.is_extreme(vertex, found.normal, kTurnOfFace)) return;
+    if (!pose.is_extreme(vertex, found.normal, kTurn)) return;
     (full ? *highest : f.standing[f.standing_count++]) = found;
   }
 
@@ -190,7 +190,7 @@ struct MeshTest {
     if (dot(away, f.x[(i + 2) % 3] - f.x[i]) < 0.0f || dot(away, in.position[opposite] - f.x[i]) < 0.0f) return;
     const float side = dot(pose.vertex_normal(vertex), away) < 0.0f ? -1.0f : 1.0f;
     const Vec3 normal = away * (side / std::sqrt(distance2));
-    if (!pose.is_extreme(vertex, normal, kTurnOfFace)) return;
+    if (!pose.is_extreme(vertex, normal, kTurn)) return;
     rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - s, s, 0.0f}, normal, q, thickness,
              pose.step(vertex), friction, false, stats);
   }
@@ -229,7 +229,7 @@ struct MeshTest {
     const float far = std::sqrt(ee * aa);
     const auto beyond = [&](const MeshPose::Corners& triangle, const Vec3& into) {
       const float next = length(cross(triangle.b - triangle.a, triangle.c - triangle.a));
-      return dot(normal, into) * far > kTurnOfEdge * std::min(next, far) * length(into);
+      return dot(normal, into) * far > kTurn * std::min(next, far) * length(into);
     };
     if (beyond(body, into1) || beyond(other, into2)) return;
 

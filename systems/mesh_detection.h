@@ -17,7 +17,7 @@ namespace pleat {
 ///              against vertices that stand out towards the edge and are over neither of its faces;
 ///   faces:     against vertices of the body that stand out towards the face.
 /// Edges and faces leave out what another row says already, so that rows stay few on smooth bodies; but not what comes
-/// to matter when the sweeps turn an edge by a slope of 0.05, a face by 0.2.
+/// to matter when the sweeps turn an edge or a face by a slope of 0.2.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; meshes and their trees
 /// Writes: contacts, added to; stats.contacts_dropped
 /// Cost:   O(candidates), without them O(F log T + close pairs); no allocation. Errors: none; features without extent
