@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "demo/scenes/coarsen.h"
+#include "demo/scenes/cut_to_length.h"
 #include "demo/scenes/obj.h"
 
 namespace pleat::demo {
@@ -151,9 +152,8 @@ std::vector<uint32_t> read_pins(const JsonValue& pins, const TriangleMesh& mesh,
   return found;
 }
 
-}  // namespace
-
-TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
+/// As it is in the file, `scale`, `up` and `move` done.
+TriangleMesh read_whole_mesh(const JsonValue& value, const SceneFile& file) {
   value.allow_keys({"file", "scale", "up", "move", "vertices"});
   const std::string name = value.at("file").text();
   const double scale = value.find("scale") ? value.at("scale").number(1e-6, 1e6) : 1.0;
@@ -164,6 +164,19 @@ TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
   transform(mesh, [&](const Vector3d& p) -> Vector3d {
     return scale * (up == "z" ? Vector3d(p.x(), p.z(), -p.y()) : p) + move;
   });
+  return mesh;
+}
+
+TriangleMesh read_garment_mesh(const JsonValue& value, const SceneFile& file) {
+  TriangleMesh coarse = read_mesh_file(value, file);
+  if (value.find("vertices")) cut_to_length(read_whole_mesh(value, file), coarse);
+  return coarse;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
+  const TriangleMesh mesh = read_whole_mesh(value, file);
   const auto vertices = value.find("vertices");
   return vertices ? coarsen(mesh, vertices->integer(3, PLEAT_MAX_PARTICLES)) : mesh;
 }
@@ -183,7 +196,7 @@ Garment read_garment(const JsonValue& value, const SceneFile& file, const pleat_
     garment.mesh = build_rings(shape, api, rings);
     if (wearer) transform(garment.mesh, [wearer](const Vector3d& p) -> Vector3d { return wearer->hips * p; });
   } else {
-    garment.mesh = read_mesh_file(shape, file);
+    garment.mesh = read_garment_mesh(shape, file);
   }
   if (const auto pins = value.find("pins")) garment.pins = read_pins(*pins, garment.mesh, rings.sizes);
   return garment;
