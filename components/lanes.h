@@ -32,11 +32,21 @@ inline float sqrt(float a) { return std::sqrt(a); }
 
 inline Lanes length(const Vec3Lanes& a) { return sqrt(dot(a, a)); }
 
-inline bool any(const LaneMask& mask) {
-  std::uint64_t pairs[kLanes / 2];
-  std::memcpy(pairs, &mask, sizeof pairs);
-  return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+/// A bit a lane, the first lane's lowest.
+inline std::uint8_t bits(const LaneMask& mask) {
+#ifdef __SSE__
+  using Half = float __attribute__((vector_size(4 * sizeof(float))));
+  Half halves[2];
+  std::memcpy(halves, &mask, sizeof halves);
+  return static_cast<std::uint8_t>(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1]) << 4);
+#else
+  const LaneMask places = mask & LaneMask{1, 2, 4, 8, 16, 32, 64, 128};
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) sum |= places[k];
+  return static_cast<std::uint8_t>(sum);
+#endif
 }
+inline bool any(const LaneMask& mask) { return bits(mask) != 0; }
 
 inline float largest(const Lanes& a) {
   float found = a[0];
@@ -215,14 +225,6 @@ inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std:
   } else {
     for (std::uint32_t k = 0; k < count; ++k) add(k);
   }
-}
-
-/// A bit a lane, the first lane's lowest.
-inline std::uint8_t bits(const LaneMask& mask) {
-  const LaneMask places = mask & LaneMask{1, 2, 4, 8, 16, 32, 64, 128};
-  std::int32_t sum = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) sum |= places[k];
-  return static_cast<std::uint8_t>(sum);
 }
 
 }  // namespace pleat
