@@ -57,4 +57,18 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> fr
   std::transform(places.begin(), places.end(), edges.begin(), [](const Place& place) { return place.edge; });
 }
 
+std::vector<std::uint32_t> runs_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
+                                   std::uint32_t longest) {
+  std::vector<std::uint32_t> begins;
+  std::vector<std::size_t> met_in(particle_count);  // the last run that the particle is in, counted from 1
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    const auto [i, j] = edges[e];
+    const bool shares = met_in[i] == begins.size() || met_in[j] == begins.size();
+    if (begins.empty() || shares || e - begins.back() == longest) begins.push_back(e);
+    met_in[i] = met_in[j] = begins.size();
+  }
+  begins.push_back(static_cast<std::uint32_t>(edges.size()));
+  return begins;
+}
+
 }  // namespace pleat

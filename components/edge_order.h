@@ -16,4 +16,9 @@ using EdgeEnds = std::array<std::uint32_t, 2>;
 /// finish the next works on some at a time. What is not joined to any of them is one band. Cost: O(E log E).
 void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> from, std::vector<EdgeEnds>& edges);
 
+/// Where runs of edges begin that share no particle and are at most `longest` long, and where the last one ends. Solved
+/// at once, those of a run end as they would one after the other. Cost: O(P + E).
+std::vector<std::uint32_t> runs_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
+                                   std::uint32_t longest);
+
 }  // namespace pleat

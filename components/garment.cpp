@@ -7,6 +7,7 @@
 #include "components/creases.h"
 #include "components/edge_order.h"
 #include "components/hinge_stiffness.h"
+#include "components/lanes.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
 
@@ -68,6 +69,22 @@ std::uint32_t middle_of(std::span<const Vec3> positions) {
   return static_cast<std::uint32_t>(nearest - positions.begin());
 }
 
+void add_slots(std::span<const EdgeEnds> edges, Garment& g) {
+  const std::vector<std::uint32_t> runs = runs_of(g.particle_count, edges, kLanes);
+  g.slot_count = kLanes * static_cast<std::uint32_t>(runs.size() - 1);
+  for (int k = 0; k < 2; ++k) g.slot_particle[k].resize(g.slot_count);
+  g.slot_rest_length.resize(g.slot_count);
+  for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t s = kLanes * r + lane, e = runs[r] + lane;
+      const bool used = e < runs[r + 1];
+      g.slot_particle[0][s] = used ? edges[e][0] : g.empty_place();
+      g.slot_particle[1][s] = used ? edges[e][1] : g.empty_place() + 1;
+      g.slot_rest_length[s] = used ? g.edge_rest_length[e] : 1.0f;
+    }
+  }
+}
+
 void add_edges(const GarmentInput& input, Garment& g) {
   std::vector<EdgeEnds> edges;
   const auto side = [&](std::uint32_t f, std::uint32_t k) {
@@ -99,6 +116,7 @@ void add_edges(const GarmentInput& input, Garment& g) {
     total += g.edge_rest_length[e];
   }
   g.mean_edge_length = static_cast<float>(total / g.edge_count);
+  add_slots(edges, g);
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t e = index[side(f, k)];
@@ -153,6 +171,8 @@ Garment::Garment(std::pmr::memory_resource* m)
       edge_face{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_rest_length(m),
       edge_rest_curve_length(m),
+      slot_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
+      slot_rest_length(m),
       tether_particle(m),
       tether_pin(m),
       tether_length(m),

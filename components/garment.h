@@ -40,6 +40,13 @@ struct Garment {
   Column<float> edge_rest_length;        // m
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
 
+  // The same edges in slots (S), as kernels solve kLanes of them at once: runs that share no particle, each in whole
+  // lanes. Empty slots are edges of 1 m between two places behind the particles.
+  std::uint32_t slot_count = 0;
+  Column<std::uint32_t> slot_particle[2];
+  Column<float> slot_rest_length;  // m
+  std::uint32_t empty_place() const { return static_cast<std::uint32_t>(padded(particle_count)); }
+
   /// Edges from the farthest particle to a pin; without pins, about half of the way across its first part.
   std::uint32_t depth = 0;
   // Tethers (T): ways over the surface from particles to their nearest two pins, nearest first; see tethers.h. None

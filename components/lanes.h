@@ -3,6 +3,7 @@
 // lane.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -47,6 +48,11 @@ inline std::uint8_t bits(const LaneMask& mask) {
 #endif
 }
 inline bool any(const LaneMask& mask) { return bits(mask) != 0; }
+/// How many lanes of a mask are set.
+inline std::uint32_t count(const LaneMask& mask) { return static_cast<std::uint32_t>(std::popcount(bits(mask))); }
+/// The same of one, so that a kernel's source can be for both.
+inline bool any(bool mask) { return mask; }
+inline std::uint32_t count(bool mask) { return mask ? 1 : 0; }
 
 inline float largest(const Lanes& a) {
   float found = a[0];
@@ -57,6 +63,7 @@ inline float largest(const Lanes& a) {
 inline Lanes all(float value) { return Lanes{} + value; }
 inline Vec3Lanes all(const Vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
 
+inline Vec3 choose(bool mask, const Vec3& a, const Vec3& b) { return mask ? a : b; }
 inline Vec3Lanes choose(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lanes& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
@@ -145,15 +152,6 @@ using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_al
 /// By value, not by memcpy: after that compilers go through the stack for a single number of the four.
 inline Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
 inline void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
-/// Of the vectors; what they carry besides does not count.
-inline float dot(const Four& a, const Four& b) {
-  const Four product = a * b;
-  return product[0] + product[1] + product[2];
-}
-/// The vector, carrying 0.
-inline Four without_load(const Four& four) { return __builtin_shufflevector(four, Four{}, 0, 1, 2, 7); }
-/// The way between two vectors, which carries 0.
-inline Four way_between(const Four& from, const Four& to) { return without_load(to - from); }
 
 /// Eight vectors, and what each carries besides, with their components beside each other.
 inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
@@ -206,6 +204,16 @@ inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
   return {{places[0], places[1], places[2]}, places[3]};
 }
 
+/// to[index[k]] = lane k, one after the other.
+inline void scatter(const Vec3Lanes& lanes, const Lanes& w, const std::uint32_t* index, Vec4* to) {
+  Lanes pairs[4];
+  const Lanes places[4] = {lanes.x, lanes.y, lanes.z, w};
+  transpose(places, pairs);
+  for (std::size_t k = 0; k < 4; ++k) {
+    store(__builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3), to[index[k]]);
+    store(__builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7), to[index[k + 4]]);
+  }
+}
 /// to[index[k]] += lane k, one after the other, for the first `count` lanes.
 inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {
   Lanes pairs[4];

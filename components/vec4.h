@@ -10,17 +10,19 @@ struct alignas(16) Vec4 {
   float x, y, z, w;
 };
 
-/// Of as many particles as one cloth has: scratch of what works on edges and hinges.
+/// Of as many particles as one cloth has, padded, and two places more for empty slots of edges (garment.h): scratch of
+/// what works on edges and hinges.
 struct Vec4Columns {
   Column<Vec4> position, velocity, force;  // m and, w, 1/kg of inverse mass; m/s; N
 
   explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), velocity(m), force(m) {}
   void make_room(std::size_t particles) {
+    const std::size_t wanted = padded(particles) + 2;
     for (Column<Vec4>* c : {&position, &velocity, &force}) {
-      if (c->size() < particles) c->resize(particles);
+      if (c->size() < wanted) c->resize(wanted);
     }
   }
-  bool holds(std::size_t particles) const { return force.size() >= particles; }
+  bool holds(std::size_t particles) const { return force.size() >= padded(particles) + 2; }
 };
 
 }  // namespace pleat

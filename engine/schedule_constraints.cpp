@@ -46,7 +46,7 @@ void limit_stretch(ClothTick& t) {
                         .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .relaxation = relaxation_of(t),
-                        .way = t.worker.edge_way.data(),
+                        .way = t.worker.edge_way.view(),
                         .position = t.position,
                         .packed = &t.worker.packed},
       t.worker.stats);
@@ -111,7 +111,7 @@ constexpr Row kRows[] = {
      },
      [](ClothTick& t) {
        run(EdgeWays{
-           .garment = &t.garment, .previous = t.previous, .packed = &t.worker.packed, .way = t.worker.edge_way.data()});
+           .garment = &t.garment, .previous = t.previous, .packed = &t.worker.packed, .way = t.worker.edge_way.view()});
      }},
     // Before contact is looked for, which then is where the springs leave the cloth.
     {Phase::kContact, "elastic_projection", with_projection,
@@ -120,7 +120,7 @@ constexpr Row kRows[] = {
                              .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
                              .dt = t.dt,
-                             .way = t.worker.edge_way.data(),
+                             .way = t.worker.edge_way.view(),
                              .position = t.position,
                              .packed = &t.worker.packed});
      }},

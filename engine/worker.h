@@ -18,7 +18,7 @@ namespace pleat {
 /// cloths have counted since the tick began.
 struct Worker {
   Vec4Columns packed;
-  Column<Vec4> edge_way;       // m, systems/edge_ways.h
+  Vec3Column edge_way;         // m, systems/edge_ways.h
   HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
   CapsuleCandidateColumns capsule_candidates;

@@ -6,18 +6,18 @@ namespace pleat {
 
 bool EdgeWays::validate() const {
   return garment != nullptr && previous.x != nullptr && packed != nullptr && packed->holds(garment->particle_count) &&
-         way != nullptr;
+         way.x != nullptr;
 }
 
 void EdgeWays::run(VectorSet set) const {
   run_wide(set, [this] {
     Vec4* place = packed->position.data();
     pack(previous, nullptr, garment->particle_count, place);
-    for (std::uint32_t e = 0; e < garment->edge_count; e += kLanes) {
-      const Vec4Lanes from = gather(place, garment->edge_particle[0].data() + e);
-      const Vec4Lanes to = gather(place, garment->edge_particle[1].data() + e);
-      const Vec3Lanes d = to.vector - from.vector;
-      pack(d, dot(d, d), way + e);
+    place[garment->empty_place()] = place[garment->empty_place() + 1] = {};
+    for (std::uint32_t s = 0; s < garment->slot_count; s += kLanes) {
+      const Vec4Lanes from = gather(place, garment->slot_particle[0].data() + s);
+      const Vec4Lanes to = gather(place, garment->slot_particle[1].data() + s);
+      store(to.vector - from.vector, way, s);
     }
   });
 }

@@ -7,14 +7,15 @@
 
 namespace pleat {
 
-/// way = x_j - x_i of every edge, which carries its square, m2; once for all passes of a substep that pull along it
-/// (pull_direction.h). Reads:  garment edges; previous (P) m: where the substep began Writes: way (E) m, in whole lanes
-/// into the padding; packed, scratch.  Cost: O(P + E), no allocation.  Errors: none.
+/// way = x_j - x_i of every edge, in its slot, once for all passes of a substep that pull along it (pull_direction.h).
+/// Reads:  garment slots; previous (P) m: where the substep began
+/// Writes: way (S) m; packed, scratch
+/// Cost:   O(P + S), no allocation. Errors: none.
 struct EdgeWays {
   const Garment* garment = nullptr;
   ConstVec3View previous;
   Vec4Columns* packed = nullptr;  // holds (P)
-  Vec4* way = nullptr;
+  Vec3View way;
 
   bool validate() const;
   void run(VectorSet set = widest_vectors()) const;

@@ -6,6 +6,7 @@
 #include "components/edge_law.h"
 #include "components/garment.h"
 #include "components/vec4.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -15,19 +16,19 @@ namespace pleat {
 /// where d = x_j - x_i and q is the same where the step began (pull_direction.h).
 /// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law.
-/// Reads:  garment edges; inverse_mass (P) 1/kg; way (E) m: edge_ways.h
+/// Reads:  garment edges; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
 /// Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
   EdgeLaw law;      // stiffness > 0
   float dt = 0.0f;  // s
-  const Vec4* way = nullptr;
+  ConstVec3View way;
   Vec3View position;
   Vec4Columns* packed = nullptr;  // holds (P)
 
   bool validate() const;
-  void run() const;
+  void run(VectorSet set = widest_vectors()) const;
 };
 
 }  // namespace pleat

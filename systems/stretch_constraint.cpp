@@ -1,50 +1,45 @@
 #include "systems/stretch_constraint.h"
 
-#include "components/lanes.h"
 #include "components/pull_direction.h"
-#include "components/wide.h"
+#include "systems/edge_pass.h"
 
 namespace pleat {
 namespace {
 
-/// Returns how many edges were too short to have a direction.
-PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in) {
-  const Garment& g = *in.garment;
-  const std::uint32_t *first = g.edge_particle[0].data(), *second = g.edge_particle[1].data();
-  const float* rest_length = g.edge_rest_length.data();
-  const std::uint32_t count = g.edge_count;
+constexpr float kShortest2 = 1e-18f;  // m2, of an edge that has a direction
+
+/// Returns how many edges were too short.
+PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in, VectorSet set) {
   const float most = 1.0f + in.limit, relaxation = in.relaxation;
-  const Vec4* ways = in.way;
-  Vec4* packed = in.packed->position.data();
   std::uint32_t skipped = 0;
-  for (std::uint32_t e = 0; e < count; ++e) {
-    const std::uint32_t i = first[e], j = second[e];
-    const Four a = load_four(packed[i]), b = load_four(packed[j]), d = way_between(a, b);
-    const float l2 = dot(d, d), longest = most * rest_length[e];
-    if (l2 < 1e-18f) ++skipped;
-    if (!(l2 > longest * longest) || l2 < 1e-18f) continue;
-    const float wa = a[3], wb = b[3], weight = wa + wb;
-    if (weight == 0.0f) continue;
-    const auto [way, along] = pull_direction(d, l2, load_four(ways[e]));
-    const float l = std::sqrt(l2);
-    const Four pull = way * (relaxation * (l - longest) * l / (weight * along));
-    store(a + pull * wa, packed[i]);
-    store(b - pull * wb, packed[j]);
-  }
+  for_each_edge(*in.garment, in.way, in.packed->position, set, [&](const auto& edge) {
+    const auto a = edge.end(0), b = edge.end(1);
+    const auto d = b.vector - a.vector;
+    const auto l2 = dot(d, d), longest = most * edge.rest_length(), weight = a.w + b.w;
+    const auto vanished = l2 < kShortest2;
+    if (any(vanished)) skipped += count(vanished);
+    const auto moves = (l2 > longest * longest) & (l2 >= kShortest2) & (weight > 0.0f);
+    if (!any(moves)) return;
+    const auto [way, along] = pull_direction(d, l2, edge.way());
+    const auto l = sqrt(l2);
+    const auto pull = way * (relaxation * (l - longest) * l / (weight * along));
+    edge.put(0, choose(moves, a.vector + pull * a.w, a.vector), a.w);
+    edge.put(1, choose(moves, b.vector - pull * b.w, b.vector), b.w);
+  });
   return skipped;
 }
 
 }  // namespace
 
 bool StretchConstraint::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && way != nullptr && position.x != nullptr && limit >= 0.0f &&
+  return garment != nullptr && inverse_mass != nullptr && way.x != nullptr && position.x != nullptr && limit >= 0.0f &&
          relaxation > 0.0f && relaxation < 2.0f && packed != nullptr && packed->holds(garment->particle_count);
 }
 
-void StretchConstraint::run(Stats& stats) const {
-  run_wide(widest_vectors(), [&] {
+void StretchConstraint::run(Stats& stats, VectorSet set) const {
+  run_wide(set, [&] {
     pack(position, inverse_mass, garment->particle_count, packed->position.data());
-    stats.edges_skipped += limit_edges(*this);
+    stats.edges_skipped += limit_edges(*this, set);
     unpack(packed->position.data(), garment->particle_count, position);
   });
 }

@@ -6,6 +6,7 @@
 #include "components/garment.h"
 #include "components/stats.h"
 #include "components/vec4.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -15,7 +16,7 @@ namespace pleat {
 /// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are weighted
 /// by inverse mass, so momentum is kept except at pins.
-/// Reads:  garment edges; inverse_mass (P) 1/kg; way (E) m: edge_ways.h
+/// Reads:  garment edges; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
 /// Writes: position (P) m; packed, scratch; stats.edges_skipped
 /// Cost:   O(P + E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
@@ -23,12 +24,12 @@ struct StretchConstraint {
   const float* inverse_mass = nullptr;
   float limit = 0.0f;       // fraction of the rest length
   float relaxation = 1.0f;  // r, below 2
-  const Vec4* way = nullptr;
+  ConstVec3View way;
   Vec3View position;
   Vec4Columns* packed = nullptr;  // holds (P)
 
   bool validate() const;
-  void run(Stats& stats) const;
+  void run(Stats& stats, VectorSet set = widest_vectors()) const;
 };
 
 }  // namespace pleat

@@ -73,6 +73,24 @@ TEST(EdgeOrder, GoesFromThePinsDownWhateverTheNumbers) {
   EXPECT_LE(count_runs(sheet.edges), 8u * 7);  // a particle has at most six edges, four of them in one band
 }
 
+TEST(EdgeOrder, RunsAreInOrderShareNothingAndEndWhereTheyMust) {
+  Sheet sheet(8, 12);
+  order_edges(96, sheet.first_row(), sheet.edges);
+  const std::vector<std::uint32_t> begins = runs_of(96, sheet.edges, 8);
+  EXPECT_EQ(begins.front(), 0u);
+  EXPECT_EQ(begins.back(), sheet.edges.size());
+  for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
+    ASSERT_LT(begins[r], begins[r + 1]);
+    ASSERT_LE(begins[r + 1] - begins[r], 8u);
+    std::set<std::uint32_t> met;
+    for (std::uint32_t e = begins[r]; e < begins[r + 1]; ++e) met.insert(sheet.edges[e].begin(), sheet.edges[e].end());
+    EXPECT_EQ(met.size(), 2 * (begins[r + 1] - begins[r]));
+    if (begins[r + 1] == sheet.edges.size() || begins[r + 1] - begins[r] == 8) continue;
+    const EdgeEnds& next = sheet.edges[begins[r + 1]];
+    EXPECT_TRUE(met.contains(next[0]) || met.contains(next[1]));  // else the run would go on
+  }
+}
+
 TEST(EdgeOrder, WithNowhereToBeginFewRunsTakeTheWholeSheet) {
   Sheet sheet(16, 16);
   order_edges(256, {}, sheet.edges);

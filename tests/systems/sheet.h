@@ -24,7 +24,7 @@ struct Sheet {
   Garment garment;
   ParticleColumns particles;
   Vec4Columns packed;
-  Column<Vec4> edge_way;
+  Vec3Column edge_way;
   HingeScratch hinge_scratch;
   std::uint32_t count;
   Vec3View position, velocity, force, previous, predicted;
@@ -43,7 +43,7 @@ struct Sheet {
       column->resize(count);
     }
     packed.make_room(count);
-    edge_way.resize(garment.edge_count);
+    edge_way.resize(garment.slot_count);
     hinge_scratch.make_room(garment.hinge_count);
     particles.inverse_mass.resize(count);
     particles.mass.resize(count);
@@ -58,9 +58,9 @@ struct Sheet {
   }
 
   /// Where the edges point at `previous`.
-  const Vec4* ways() {
-    EdgeWays{&garment, previous, &packed, edge_way.data()}.run();
-    return edge_way.data();
+  ConstVec3View ways() {
+    EdgeWays{&garment, previous, &packed, edge_way.view()}.run();
+    return edge_way.view();
   }
   void clear_force() {
     for (std::uint32_t i = 0; i < count; ++i) force.set(i, {});

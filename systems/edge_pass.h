@@ -1,0 +1,72 @@
+// One pass over the edges of a cloth, in order: each is solved where those before it have left its ends. Edges in slots
+// beside each other share no particle and are solved at once, with the bits that one after the other would give.
+#pragma once
+
+#include "components/garment.h"
+#include "components/lanes.h"
+#include "components/vec4.h"
+#include "components/wide.h"
+
+namespace pleat {
+
+/// What a pass goes through. In slots; see garment.h, edge_ways.h.
+struct EdgeColumns {
+  const std::uint32_t* particle[2];
+  const float* rest_length;  // m
+  ConstVec3View way;         // m
+  Vec4* packed;              // of particles and two places for the ends of empty slots: m and 1/kg
+};
+
+/// An edge.
+struct EdgeSlot {
+  struct End {
+    Vec3 vector;
+    float w;
+  };
+  const EdgeColumns& in;
+  std::uint32_t slot;
+
+  PLEAT_KERNEL float rest_length() const { return in.rest_length[slot]; }
+  PLEAT_KERNEL Vec3 way() const { return in.way[slot]; }
+  PLEAT_KERNEL End end(std::size_t k) const {
+    const Vec4& at = in.packed[in.particle[k][slot]];
+    return {{at.x, at.y, at.z}, at.w};
+  }
+  PLEAT_KERNEL void put(std::size_t k, const Vec3& vector, float w) const {
+    in.packed[in.particle[k][slot]] = {vector.x, vector.y, vector.z, w};
+  }
+};
+
+/// Edges side by side.
+struct EdgeSlots {
+  const EdgeColumns& in;
+  std::uint32_t slot;
+
+  PLEAT_KERNEL Lanes rest_length() const { return load(in.rest_length + slot); }
+  PLEAT_KERNEL Vec3Lanes way() const { return load(in.way, slot); }
+  PLEAT_KERNEL Vec4Lanes end(std::size_t k) const { return gather(in.packed, in.particle[k] + slot); }
+  PLEAT_KERNEL void put(std::size_t k, const Vec3Lanes& vector, const Lanes& w) const {
+    scatter(vector, w, in.particle[k] + slot, in.packed);
+  }
+};
+
+/// solve(EdgeSlot) or solve(EdgeSlots), in order. Processors that split lanes are quicker edge by edge.
+template <class Solve>
+PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Column<Vec4>& packed, VectorSet set,
+                                const Solve& solve) {
+  const std::uint32_t empty = garment.empty_place(), count = garment.slot_count;
+  packed[empty] = {0.0f, 0.0f, 0.0f, 0.0f}, packed[empty + 1] = {1.0f, 0.0f, 0.0f, 0.0f};
+  const EdgeColumns in{{garment.slot_particle[0].data(), garment.slot_particle[1].data()},
+                       garment.slot_rest_length.data(),
+                       way,
+                       packed.data()};
+  if (set == VectorSet::kBaseline) {
+    for (std::uint32_t s = 0; s < count; ++s) {
+      if (in.particle[0][s] != empty) solve(EdgeSlot{in, s});
+    }
+  } else {
+    for (std::uint32_t s = 0; s < count; s += kLanes) solve(EdgeSlots{in, s});
+  }
+}
+
+}  // namespace pleat
