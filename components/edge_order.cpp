@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
+#include <queue>
+#include <set>
 
 namespace pleat {
 namespace {
@@ -57,18 +60,36 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> fr
   std::transform(places.begin(), places.end(), edges.begin(), [](const Place& place) { return place.edge; });
 }
 
-std::vector<std::uint32_t> runs_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
-                                   std::uint32_t longest) {
-  std::vector<std::uint32_t> begins;
-  std::vector<std::size_t> met_in(particle_count);  // the last run that the particle is in, counted from 1
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    const auto [i, j] = edges[e];
-    const bool shares = met_in[i] == begins.size() || met_in[j] == begins.size();
-    if (begins.empty() || shares || e - begins.back() == longest) begins.push_back(e);
-    met_in[i] = met_in[j] = begins.size();
+std::vector<std::uint32_t> slots_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
+                                    std::uint32_t lanes) {
+  std::vector<std::vector<std::uint32_t>> waiting(particle_count);  // at each particle, the next one last
+  for (std::uint32_t e = static_cast<std::uint32_t>(edges.size()); e-- > 0;) {
+    for (const std::uint32_t i : edges[e]) waiting[i].push_back(e);
   }
-  begins.push_back(static_cast<std::uint32_t>(edges.size()));
-  return begins;
+  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;
+  const auto is_next = [&](std::uint32_t e) {
+    return waiting[edges[e][0]].back() == e && waiting[edges[e][1]].back() == e;
+  };
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    if (is_next(e)) ready.push(e);
+  }
+  std::vector<std::uint32_t> slots;
+  while (!ready.empty()) {
+    const std::size_t begin = slots.size();
+    for (; slots.size() < begin + lanes && !ready.empty(); ready.pop()) slots.push_back(ready.top());
+    for (std::size_t s = begin, end = slots.size(); s < end; ++s) {
+      for (const std::uint32_t i : edges[slots[s]]) waiting[i].pop_back();
+    }
+    std::set<std::uint32_t> next;  // an edge may be found at both its ends
+    for (std::size_t s = begin, end = slots.size(); s < end; ++s) {
+      for (const std::uint32_t i : edges[slots[s]]) {
+        if (!waiting[i].empty() && is_next(waiting[i].back())) next.insert(waiting[i].back());
+      }
+    }
+    for (const std::uint32_t e : next) ready.push(e);
+    slots.resize(begin + lanes, kEmptySlot);
+  }
+  return slots;
 }
 
 }  // namespace pleat

@@ -16,9 +16,11 @@ using EdgeEnds = std::array<std::uint32_t, 2>;
 /// finish the next works on some at a time. What is not joined to any of them is one band. Cost: O(E log E).
 void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> from, std::vector<EdgeEnds>& edges);
 
-/// Where runs of edges begin that share no particle and are at most `longest` long, and where the last one ends. Solved
-/// at once, those of a run end as they would one after the other. Cost: O(P + E).
-std::vector<std::uint32_t> runs_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
-                                   std::uint32_t longest);
+inline constexpr std::uint32_t kEmptySlot = 0xffffffffu;
+
+/// Edges, by index, in runs of `lanes` that share no particle, the last places of some empty. An edge comes after all
+/// that are before it in `edges` and meet it at a particle: solved run by run, each at once, they end as they would one
+/// after the other. Of those that may come next a run takes the first. Cost: O(P + E log E).
+std::vector<std::uint32_t> slots_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges, std::uint32_t lanes);
 
 }  // namespace pleat

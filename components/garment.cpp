@@ -70,18 +70,16 @@ std::uint32_t middle_of(std::span<const Vec3> positions) {
 }
 
 void add_slots(std::span<const EdgeEnds> edges, Garment& g) {
-  const std::vector<std::uint32_t> runs = runs_of(g.particle_count, edges, kLanes);
-  g.slot_count = kLanes * static_cast<std::uint32_t>(runs.size() - 1);
-  for (int k = 0; k < 2; ++k) g.slot_particle[k].resize(g.slot_count);
+  const std::vector<std::uint32_t> slots = slots_of(g.particle_count, edges, kLanes);
+  g.slot_count = static_cast<std::uint32_t>(slots.size());
+  for (auto& column : g.slot_particle) column.resize(g.slot_count);
   g.slot_rest_length.resize(g.slot_count);
-  for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t s = kLanes * r + lane, e = runs[r] + lane;
-      const bool used = e < runs[r + 1];
-      g.slot_particle[0][s] = used ? edges[e][0] : g.empty_place();
-      g.slot_particle[1][s] = used ? edges[e][1] : g.empty_place() + 1;
-      g.slot_rest_length[s] = used ? g.edge_rest_length[e] : 1.0f;
-    }
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    const std::uint32_t e = slots[s];
+    const bool empty = e == kEmptySlot;
+    g.slot_particle[0][s] = empty ? g.empty_place() : edges[e][0];
+    g.slot_particle[1][s] = empty ? g.empty_place() + 1 : edges[e][1];
+    g.slot_rest_length[s] = empty ? 1.0f : g.edge_rest_length[e];
   }
 }
 

@@ -50,7 +50,8 @@ struct EdgeSlots {
   }
 };
 
-/// solve(EdgeSlot) or solve(EdgeSlots), in order. Processors that split lanes are quicker edge by edge.
+/// solve(EdgeSlot) or solve(EdgeSlots), in order. Processors that split lanes are quicker edge by edge; so are all
+/// where most slots are empty, as in small cloths that hang from few pins.
 template <class Solve>
 PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Column<Vec4>& packed, VectorSet set,
                                 const Solve& solve) {
@@ -60,7 +61,7 @@ PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Colum
                        garment.slot_rest_length.data(),
                        way,
                        packed.data()};
-  if (set == VectorSet::kBaseline) {
+  if (set == VectorSet::kBaseline || count > 2 * garment.edge_count) {
     for (std::uint32_t s = 0; s < count; ++s) {
       if (in.particle[0][s] != empty) solve(EdgeSlot{in, s});
     }

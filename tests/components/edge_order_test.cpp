@@ -73,21 +73,26 @@ TEST(EdgeOrder, GoesFromThePinsDownWhateverTheNumbers) {
   EXPECT_LE(count_runs(sheet.edges), 8u * 7);  // a particle has at most six edges, four of them in one band
 }
 
-TEST(EdgeOrder, RunsAreInOrderShareNothingAndEndWhereTheyMust) {
-  Sheet sheet(8, 12);
-  order_edges(96, sheet.first_row(), sheet.edges);
-  const std::vector<std::uint32_t> begins = runs_of(96, sheet.edges, 8);
-  EXPECT_EQ(begins.front(), 0u);
-  EXPECT_EQ(begins.back(), sheet.edges.size());
-  for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
-    ASSERT_LT(begins[r], begins[r + 1]);
-    ASSERT_LE(begins[r + 1] - begins[r], 8u);
-    std::set<std::uint32_t> met;
-    for (std::uint32_t e = begins[r]; e < begins[r + 1]; ++e) met.insert(sheet.edges[e].begin(), sheet.edges[e].end());
-    EXPECT_EQ(met.size(), 2 * (begins[r + 1] - begins[r]));
-    if (begins[r + 1] == sheet.edges.size() || begins[r + 1] - begins[r] == 8) continue;
-    const EdgeEnds& next = sheet.edges[begins[r + 1]];
-    EXPECT_TRUE(met.contains(next[0]) || met.contains(next[1]));  // else the run would go on
+TEST(EdgeOrder, SlotsKeepEdgesThatMeetInOrderAndAreNearlyFull) {
+  Sheet sheet(16, 24);
+  order_edges(384, sheet.first_row(), sheet.edges);
+  const std::vector<std::uint32_t> slots = slots_of(384, sheet.edges, 8);
+  ASSERT_EQ(slots.size() % 8, 0u);
+  EXPECT_LT(slots.size(), sheet.edges.size() * 9 / 8);
+  std::vector<std::size_t> run_of(sheet.edges.size(), slots.size());
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    if (slots[s] == kEmptySlot) continue;
+    EXPECT_EQ(run_of[slots[s]], slots.size()) << "twice";
+    run_of[slots[s]] = s / 8;
+  }
+  for (std::size_t e = 0; e < sheet.edges.size(); ++e) {
+    ASSERT_LT(run_of[e], slots.size() / 8) << "missing";
+    for (std::size_t later = e + 1; later < sheet.edges.size(); ++later) {
+      const auto [i, j] = sheet.edges[e];
+      const auto [k, l] = sheet.edges[later];
+      const bool meet = i == k || i == l || j == k || j == l;
+      EXPECT_TRUE(!meet || run_of[e] < run_of[later]);
+    }
   }
 }
 
