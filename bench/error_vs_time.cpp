@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,11 +101,10 @@ nlohmann::ordered_json blame(const pleat_api& api, const std::vector<Arena>& all
 }
 
 /// Pleat alone over meshes of several patterns; draws them where `svg` is.
-nlohmann::ordered_json over_meshes(const pleat_api& api, const std::filesystem::path& folder,
-                                   const std::vector<const RestScene*>& scenes, const std::vector<Arena>& all,
-                                   demo::OutputOption& svg) {
+nlohmann::ordered_json over_meshes(const pleat_api& api, const std::vector<const RestScene*>& scenes,
+                                   const std::vector<Arena>& all, demo::OutputOption& svg) {
   std::optional<EarlierCurve> earlier;
-  if (svg) earlier = read_earlier(folder / "earlier.json");
+  if (svg) earlier = read_earlier(std::filesystem::path(PLEAT_FINE_DIR) / "earlier.json");
   std::vector<std::vector<MeshScores>> scores;
   {
     demo::Progress progress("over meshes, pattern", uint32_t(all.size() * kPatterns));
@@ -200,7 +200,7 @@ int run_program(int argc, char** argv) {
   if (dominant) {
     figures["dominant"] = blame(api, all, quick);
   } else if (meshes) {
-    figures["meshes"] = over_meshes(api, folder, scenes, all, svg);
+    figures["meshes"] = over_meshes(api, scenes, all, svg);
   } else {
     const std::vector<SceneScores> scores = compete(api, all, quick);
     print_scores(scores);

@@ -12,7 +12,7 @@ case ${1-} in
 Usage: bench/run.sh [--quick]
 
 Builds the preset \`release\` if need be, runs all programs of bench and writes bench/results/report.md, with the JSON
-and SVG files that it links to. Takes some 30 minutes on an idle machine; with --quick, smaller grids and fewer runs,
+and SVG files that it links to. Takes some 25 minutes on an idle machine; with --quick, smaller grids and fewer runs,
 less than three minutes. A bar that is missed is reported and no error; the exit status is 1 where a program failed.
 HELP
     [[ $1 == --help || $1 == -h ]] && exit

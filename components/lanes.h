@@ -16,6 +16,7 @@ inline constexpr std::uint32_t kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneMask = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));  // -1 or 0
 using Vec3Lanes = Vec3T<Lanes>;
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
 
 inline Lanes min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
@@ -36,8 +37,7 @@ inline Lanes length(const Vec3Lanes& a) { return sqrt(dot(a, a)); }
 /// A bit a lane, the first lane's lowest.
 inline std::uint8_t bits(const LaneMask& mask) {
 #ifdef __SSE__
-  using Half = float __attribute__((vector_size(4 * sizeof(float))));
-  Half halves[2];
+  Four halves[2];
   std::memcpy(halves, &mask, sizeof halves);
   return static_cast<std::uint8_t>(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1]) << 4);
 #else
@@ -146,7 +146,6 @@ inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
   places[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-using Four = float __attribute__((vector_size(4 * sizeof(float))));
 using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_alias));
 
 /// By value, not by memcpy: after that compilers go through the stack for a single number of the four.

@@ -80,7 +80,7 @@ enum { PLEAT_LOG_INFO = 0, PLEAT_LOG_WARNING = 1, PLEAT_LOG_ERROR = 2 };
 typedef void (*pleat_log_fn)(uint32_t level, const char* line, void* user);
 
 /* Called before (begin = 1) and after (begin = 0) each system of the schedule, for a host's profiler; and once a tick,
- * as `body_refit`, where the trees of bodies are fitted to how these move. */
+ * as `body_refit`, while the trees of bodies are brought up to date, in a world that has bodies. */
 typedef void (*pleat_stage_fn)(const char* system, int begin, void* user);
 
 /* A task for one of `workers`, and what runs tasks 0 .. count - 1, each once, on any threads, and returns when all are

@@ -97,7 +97,7 @@ void check_energy(ClothTick& t) {
   if (!(speed <= bound.least()) && !(speed <= bound.run())) t.trouble = true;
 }
 
-/// Whether the edges of the cloth are solved one by one, by the integrator.
+/// Why the integrator does not project the edges of the cloth, or kNeeded.
 const char* with_projection(const World&, const ClothRecord& c) {
   return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
          : c.settings.stiffness == 0.0f                      ? "stiffness is 0"

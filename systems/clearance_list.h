@@ -13,8 +13,9 @@ struct ClearanceList {
   std::uint32_t* count = nullptr;
 
   bool validate() const { return planes != nullptr && capacity > 0 && count != nullptr && *count <= capacity; }
+  bool is_full() const { return *count == capacity; }
   void add(const ClearancePlane& plane, const Vec3View& drawn_position) const {
-    if (*count == capacity) settle(drawn_position);
+    if (is_full()) settle(drawn_position);
     planes[(*count)++] = plane;
   }
   /// Projects each drawn vertex onto the planes that it is behind, one after the other, in sweeps until none is; then

@@ -50,18 +50,19 @@ struct EdgeSlots {
   }
 };
 
-/// solve(EdgeSlot) or solve(EdgeSlots), in order. Processors that split lanes are quicker edge by edge; so are all
-/// where most slots are empty, as in small cloths that hang from few pins.
+/// solve(EdgeSlot) or solve(EdgeSlots), in order. Without AVX2, where lanes are split, edge by edge is quicker; so it
+/// is where most slots are empty, as in small cloths that hang from few pins.
 template <class Solve>
 PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Column<Vec4>& packed, VectorSet set,
                                 const Solve& solve) {
+  constexpr std::uint32_t kMostSlotsPerEdge = 2;
   const std::uint32_t empty = garment.empty_place(), count = garment.slot_count;
   packed[empty] = {0.0f, 0.0f, 0.0f, 0.0f}, packed[empty + 1] = {1.0f, 0.0f, 0.0f, 0.0f};
   const EdgeColumns in{{garment.slot_particle[0].data(), garment.slot_particle[1].data()},
                        garment.slot_rest_length.data(),
                        way,
                        packed.data()};
-  if (set == VectorSet::kBaseline || count > 2 * garment.edge_count) {
+  if (set == VectorSet::kBaseline || count > kMostSlotsPerEdge * garment.edge_count) {
     for (std::uint32_t s = 0; s < count; ++s) {
       if (in.particle[0][s] != empty) solve(EdgeSlot{in, s});
     }

@@ -6,12 +6,12 @@
 namespace pleat {
 namespace {
 
-constexpr float kTiny = 1e-30f;  // kg m2, what an edge without length is divided by
+constexpr float kTiny = 1e-30f;  // m2/kg, what an edge without length is divided by
 
 PLEAT_KERNEL void project(const ElasticProjection& in, VectorSet set) {
   const EdgeLine straight = in.law.straight(), buckled = in.law.buckled();
   const float dt2 = in.dt * in.dt;
-  const float soft = 1.0f / (straight.stiffness * dt2), softer = 1.0f / (buckled.stiffness * dt2);  // kg
+  const float soft = 1.0f / (straight.stiffness * dt2), softer = 1.0f / (buckled.stiffness * dt2);  // 1/kg
   for_each_edge(*in.garment, in.way, in.packed->position, set, [&](const auto& edge) {
     const auto a = edge.end(0), b = edge.end(1);
     const auto d = b.vector - a.vector;

@@ -16,8 +16,8 @@ namespace pleat {
 /// where d = x_j - x_i and q is the same where the step began (pull_direction.h).
 /// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law.
-/// Reads:  garment edges; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
-/// Writes: position (P) m; packed, scratch.  Cost: O(E), no allocation.  Errors: none.
+/// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
+/// Writes: position (P) m; packed, scratch.  Cost: O(P + S), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;

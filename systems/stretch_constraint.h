@@ -16,9 +16,9 @@ namespace pleat {
 /// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are weighted
 /// by inverse mass, so momentum is kept except at pins.
-/// Reads:  garment edges; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
+/// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
 /// Writes: position (P) m; packed, scratch; stats.edges_skipped
-/// Cost:   O(P + E), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
+/// Cost:   O(P + S), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;

@@ -86,14 +86,23 @@ struct FaceVertices {
 
 struct Lifter {
   const SurfaceClearance& in;
+  mutable bool has_settled = false;  // so that what is known of motions has to be looked up anew
+
+  PLEAT_KERNEL void measure_motion() const {
+    for (std::size_t v = 0; v < in.pattern->vertex_count; v += kLanes) {
+      store(length(load(in.drawn_position, v) - load(in.footprint, v)), in.moved + v);
+    }
+  }
 
   PLEAT_KERNEL void gather_planes(std::uint32_t begin, std::uint32_t count) const {
-    const FaceGroup faces(in, begin, count);
+    FaceGroup faces(in, begin, count);
     const auto for_each = [&](const LaneMask& near, const auto& visit) {
+      has_settled = false;
       for (std::uint32_t rest = bits(near & first_lanes(count)); rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest);
         visit(begin + static_cast<std::uint32_t>(k), faces.bulge[k]);
       }
+      if (has_settled) faces = FaceGroup(in, begin, count);
     };
     for (std::size_t k = 0; k < in.half_space_count; ++k) {
       if (!in.half_spaces[k].enabled) continue;
@@ -196,7 +205,14 @@ struct Lifter {
     return all_away;
   }
 
-  void add(const ClearancePlane& plane) const { in.planes.add(plane, in.drawn_position); }
+  void add(const ClearancePlane& plane) const {
+    if (in.planes.is_full()) {
+      in.planes.settle(in.drawn_position);
+      measure_motion();
+      has_settled = true;
+    }
+    in.planes.add(plane, in.drawn_position);
+  }
 };
 
 }  // namespace
@@ -211,9 +227,7 @@ void SurfaceClearance::run() const {
   if (capsule_count + half_space_count != 0) {
     const Lifter lifter{*this};
     run_wide(widest_vectors(), [&] {
-      for (std::size_t v = 0; v < pattern->vertex_count; v += kLanes) {
-        store(length(load(drawn_position, v) - load(footprint, v)), moved + v);
-      }
+      lifter.measure_motion();
       for (std::uint32_t f = 0; f < garment->face_count; f += kLanes) {
         lifter.gather_planes(f, std::min(kLanes, garment->face_count - f));
       }

@@ -25,8 +25,10 @@ namespace pleat {
 /// Moves drawn vertices so that every drawn triangle keeps at least `clearance` from every capsule and plane, up to
 /// rounding. One sweep does it where the planes at a vertex agree (all angles between their normals are at most 90
 /// degrees); where they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are
-/// outside. Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules
-///         planes that other systems have gathered already
+/// outside.
+/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules;
+/// half-spaces;
+///         planes that other systems have gathered already. Columns into their padding
 /// Writes: drawn_position (V) m; planes, which are settled; moved, scratch, in whole lanes into the padding
 /// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
 struct SurfaceClearance {

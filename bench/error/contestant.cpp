@@ -72,8 +72,7 @@ demo::TriangleMesh Contestant::surface() const {
 }
 
 void settle(Contestant& contestant) {
-  constexpr int kFrames = 300;
-  for (int frame = 0; frame < kFrames; ++frame) contestant.run_frame();
+  for (int frame = 0; frame < kSettleFrames; ++frame) contestant.run_frame();
 }
 
 }  // namespace pleat::bench

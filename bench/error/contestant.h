@@ -59,6 +59,7 @@ class Contestant {
   std::vector<float> bare_;   // of the peer: (P,3) m
 };
 
+inline constexpr int kSettleFrames = 300;  // of 1/60 s
 /// Runs for 5 s, in which all of these scenes come to rest.
 void settle(Contestant& contestant);
 

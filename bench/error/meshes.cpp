@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <utility>
 
 #include "bench/error/contestant.h"
 #include "bench/error/log_chart.h"
@@ -30,11 +31,10 @@ double processor_time() {
 
 MeshScore score(const pleat_api& api, const RestScene& scene, const pleat_cloth_settings& settings, Grid grid,
                 const demo::TriangleMesh& truth) {
-  constexpr int kFrames = 300;  // as settle() takes
   Contestant contestant(api, scene, {"default", grid, settings, {}});
   const double start = processor_time();
   settle(contestant);
-  const double ms = (processor_time() - start) / kFrames;
+  const double ms = (processor_time() - start) / kSettleFrames;
   return {grid, ms, surface_distance(contestant.surface(), truth).rms};
 }
 
@@ -83,7 +83,11 @@ EarlierCurve read_earlier(const std::filesystem::path& file) {
   try {
     std::ifstream in(file);
     const nlohmann::json all = nlohmann::json::parse(in);
-    return {all.at("name"), all.at("scenes")};
+    EarlierCurve curve{all.at("name"), {}};
+    for (const auto& [scene, rows] : all.at("scenes").items()) {
+      for (const nlohmann::json& row : rows) curve.scenes[scene].push_back({row.at("ms"), row.at("rms_mm")});
+    }
+    return curve;
   } catch (const nlohmann::json::exception& error) {
     throw demo::InputError(file.string(), error.what());
   }
@@ -98,10 +102,8 @@ std::string draw_meshes(const std::vector<const RestScene*>& scenes, const std::
       Curve& curve = panel.curves.emplace_back(Curve{name_of(scores.pattern), {}});
       for (const MeshScore& s : scores.of_densities) curve.points.push_back({s.ms, 1e3 * s.rms});
     }
-    Curve& before = panel.curves.emplace_back(Curve{earlier.name, {}});
-    for (const nlohmann::json& row : earlier.scenes.at(std::string(scenes[i]->name))) {
-      before.points.push_back({row.at("ms"), row.at("rms_mm")});
-    }
+    const auto before = earlier.scenes.find(std::string(scenes[i]->name));
+    if (before != earlier.scenes.end()) panel.curves.push_back({earlier.name, before->second});
     panels.push_back(std::move(panel));
   }
   return log_charts("Pleat's distance from the truth at rest by mesh, and earlier, over the cost of a frame of 1/60 s",

@@ -2,11 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/error/pareto.h"
 #include "bench/error/reference.h"
 #include "bench/error/rest_scene.h"
 
@@ -26,8 +27,8 @@ struct MeshScores {
 
 /// What pleat came to at an earlier commit, over the same densities and the pattern of the scene.
 struct EarlierCurve {
-  std::string name;  ///< of the legend
-  nlohmann::json scenes;
+  std::string name;                                         ///< of the legend
+  std::map<std::string, std::vector<TimeAndError>> scenes;  ///< ms, mm
 };
 
 /// The scene with its squares' diagonals alternating and one way, and with staggered rows. Rows that are shifted have

@@ -1,5 +1,7 @@
 #include "demo/program/options.h"
 
+#include <cassert>
+
 #include "demo/program/entry.h"
 
 namespace pleat::demo {
@@ -21,6 +23,7 @@ void OutputOption::open() {
 }
 
 void OutputOption::commit(const std::string& text) {
+  assert(file_ || path_.empty());
   if (file_) file_->commit(text);
 }
 

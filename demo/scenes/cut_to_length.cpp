@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSteps = 12;         // in which an edge is measured
-constexpr double kMost = 1.5;      // of what is straight: more, and the nearest point has jumped to another part
-constexpr int kPasses = 200;       // of moving vertices until edges fit
-constexpr double kOutside = 1e-9;  // m2, of a triangle without extent
+constexpr int kSteps = 12;              // in which an edge is measured
+constexpr double kLongestDetour = 1.5;  // of what is straight: more, and the nearest point has jumped elsewhere
+constexpr int kPasses = 200;            // of moving vertices until edges fit
+constexpr double kNoExtent = 1e-9;      // m2, of a triangle
 
 using Edge = std::pair<uint32_t, uint32_t>;  // the lower vertex first
 
@@ -63,7 +63,7 @@ class Shape {
   }
   static Vector3d nearest(const Vector3d& p, const Piece& x) {
     const Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
-    if (normal.norm() > kOutside) {
+    if (normal.norm() > kNoExtent) {
       const auto beside = [&](size_t k) { return normal.cross(x[(k + 1) % 3] - x[k]).dot(p - x[k]) < 0.0; };
       if (!beside(0) && !beside(1) && !beside(2)) return p - normal * (normal.dot(p - x[0]) / normal.squaredNorm());
     }
@@ -89,7 +89,7 @@ double length_along(const Shape& shape, const Vector3d& a, const Vector3d& b) {
     last = next;
   }
   const double straight = (b - a).norm();
-  return sum <= kMost * straight ? sum : straight;
+  return sum <= kLongestDetour * straight ? sum : straight;
 }
 
 }  // namespace

@@ -167,18 +167,22 @@ TriangleMesh read_whole_mesh(const JsonValue& value, const SceneFile& file) {
   return mesh;
 }
 
+TriangleMesh coarsened(const JsonValue& value, const TriangleMesh& mesh) {
+  const auto vertices = value.find("vertices");
+  return vertices ? coarsen(mesh, vertices->integer(3, PLEAT_MAX_PARTICLES)) : mesh;
+}
+
 TriangleMesh read_garment_mesh(const JsonValue& value, const SceneFile& file) {
-  TriangleMesh coarse = read_mesh_file(value, file);
-  if (value.find("vertices")) cut_to_length(read_whole_mesh(value, file), coarse);
+  const TriangleMesh fine = read_whole_mesh(value, file);
+  TriangleMesh coarse = coarsened(value, fine);
+  if (coarse.vertex_count() < fine.vertex_count()) cut_to_length(fine, coarse);
   return coarse;
 }
 
 }  // namespace
 
 TriangleMesh read_mesh_file(const JsonValue& value, const SceneFile& file) {
-  const TriangleMesh mesh = read_whole_mesh(value, file);
-  const auto vertices = value.find("vertices");
-  return vertices ? coarsen(mesh, vertices->integer(3, PLEAT_MAX_PARTICLES)) : mesh;
+  return coarsened(value, read_whole_mesh(value, file));
 }
 
 Garment read_garment(const JsonValue& value, const SceneFile& file, const pleat_api& api, const Wearer* wearer) {

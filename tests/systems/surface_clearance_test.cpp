@@ -227,6 +227,20 @@ TEST(SurfaceClearance, AListTooSmallIsSettledInTurn) {
   EXPECT_GE(least_distance(s, s.drawn.view(), c.capsules[0]), kClearance - kRounding);
 }
 
+TEST(SurfaceClearance, ManyBodiesAreKeptByAListTooSmall) {
+  SaggingSheet s(0.04f);
+  Clearance c{s, {}};
+  for (int k = -4; k <= 4; ++k) {
+    const float x = 0.1f * static_cast<float>(k);
+    c.capsules.push_back(capsule({x, -0.085f, -0.4f}, {x, -0.085f, 0.4f}, 0.08f));
+  }
+  c.planes.resize(8);
+  c.system().run();
+  for (const CapsulePose& body : c.capsules) {
+    EXPECT_GE(least_distance(s, s.drawn.view(), body), kClearance - 2e-5f);
+  }
+}
+
 TEST(SurfaceClearance, SpheresPointsAndClothThroughTheCoreStayFinite) {
   for (const CapsulePose& body :
        {capsule({0, -0.05f, 0}, {0, -0.05f, 0}, 0.045f), capsule({0, 0, 0}, {0, 0, 0}, 0.1f),
