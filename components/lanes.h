@@ -152,16 +152,20 @@ using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_al
 inline Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
 inline void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
 
-/// Eight vectors, and what each carries besides, with their components beside each other.
-inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
+/// Eight vectors, and what each carries besides, each with its components beside each other.
+inline void split(const Vec3Lanes& vector, const Lanes& w, Four (&each)[kLanes]) {
   const Lanes places[4] = {vector.x, vector.y, vector.z, w};
   Lanes pairs[4];
   transpose(places, pairs);
   for (std::size_t k = 0; k < 4; ++k) {
-    const Four low = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
-    const Four high = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
-    std::memcpy(to + k, &low, sizeof low), std::memcpy(to + k + 4, &high, sizeof high);
+    each[k] = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
+    each[k + 4] = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
   }
+}
+inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
+  Four each[kLanes];
+  split(vector, w, each);
+  for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[k]);
 }
 /// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
 inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
@@ -205,28 +209,15 @@ inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
 
 /// to[index[k]] = lane k, one after the other.
 inline void scatter(const Vec3Lanes& lanes, const Lanes& w, const std::uint32_t* index, Vec4* to) {
-  Lanes pairs[4];
-  const Lanes places[4] = {lanes.x, lanes.y, lanes.z, w};
-  transpose(places, pairs);
-  for (std::size_t k = 0; k < 4; ++k) {
-    store(__builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3), to[index[k]]);
-    store(__builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7), to[index[k + 4]]);
-  }
+  Four each[kLanes];
+  split(lanes, w, each);
+  for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[index[k]]);
 }
 /// to[index[k]] += lane k, one after the other, for the first `count` lanes.
 inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {
-  Lanes pairs[4];
-  const Lanes places[4] = {lanes.x, lanes.y, lanes.z, Lanes{}};
-  transpose(places, pairs);
-  Four lane[kLanes];
-  for (std::size_t k = 0; k < 4; ++k) {
-    lane[k] = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
-    lane[k + 4] = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
-  }
-  const auto add = [&](std::uint32_t k) {
-    const Four sum = load_four(to[index[k]]) + lane[k];
-    std::memcpy(to + index[k], &sum, sizeof sum);
-  };
+  Four each[kLanes];
+  split(lanes, Lanes{}, each);
+  const auto add = [&](std::uint32_t k) { store(load_four(to[index[k]]) + each[k], to[index[k]]); };
   if (count >= kLanes) {
     for (std::uint32_t k = 0; k < kLanes; ++k) add(k);
   } else {
