@@ -18,7 +18,7 @@ const pleat_cloth_def& default_cloth() {
                   .substeps = 0,
                   .sweeps = 3,
                   .density = 0.2f,
-                  .stiffness = 310.0f,
+                  .stiffness = 335.0f,
                   .stretch_limit = 0.001f,
                   .bend_stiffness = 5e-5f,
                   .edge_damping = 4.0f,

@@ -101,11 +101,12 @@ StableStep stable_step(const ClothTick& t) {
   const pleat_cloth_settings& s = t.settings;
   const bool solved = s.integrator == PLEAT_INTEGRATOR_PROJECTED || s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
   const bool runge_kutta = s.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
+  const bool damped = s.integrator == PLEAT_INTEGRATOR_PROJECTED && s.stiffness > 0.0f;  // edges, where they are solved
   return {.rates = t.cloth.rates,
           .scheme = runge_kutta ? Scheme::kRungeKutta4 : Scheme::kEuler,
           .stiffness = solved ? 0.0f : s.stiffness,
           .bend_stiffness = s.bend_stiffness,
-          .edge_damping = s.edge_damping,
+          .edge_damping = damped ? 0.0f : s.edge_damping,
           .bend_damping = s.bend_damping,
           .air_damping = s.air_damping};
 }

@@ -219,7 +219,7 @@ typedef struct pleat_cloth_settings {
   uint32_t sweeps;     /* passes of strain limit and contact in a substep for each 8 edges of way from the pins to the
                           farthest particle, fewer where stiffness asks for more substeps; default 3, 1..64 */
   float density;       /* kg/m2; default 0.2 */
-  float stiffness; /* k of eq (1), N/m; default 310. Holds against slight compression; the strain limit holds the length
+  float stiffness; /* k of eq (1), N/m; default 335. Holds against slight compression; the strain limit holds the length
                     */
   float stretch_limit;    /* elongation that the strain limit tolerates, fraction; default 0.001; 1 = no limit */
   float bend_stiffness;   /* B of the cloth, N m; default 5e-5; 0 leaves bending out */

@@ -97,13 +97,6 @@ void check_energy(ClothTick& t) {
   if (!(speed <= bound.least()) && !(speed <= bound.run())) t.trouble = true;
 }
 
-/// Why the integrator does not project the edges of the cloth, or kNeeded.
-const char* with_projection(const World&, const ClothRecord& c) {
-  return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
-         : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
-                                                             : kNeeded;
-}
-
 constexpr Row kRows[] = {
     {Phase::kContact, "edge_ways",
      [](const World& w, const ClothRecord& c) {
@@ -119,6 +112,7 @@ constexpr Row kRows[] = {
        run(ElasticProjection{.garment = &t.garment,
                              .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
+                             .damping_rate = t.settings.edge_damping,
                              .dt = t.dt,
                              .way = t.worker.edge_way.view(),
                              .position = t.position,

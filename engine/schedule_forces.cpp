@@ -83,7 +83,11 @@ constexpr Row kRows[] = {
                         .step_damping = projected(t.settings) ? kStepDamping : 0.0f});
      }},
     {Phase::kStage, "edge_damping",
-     [](const World&, const ClothRecord& c) { return c.settings.edge_damping > 0.0f ? kNeeded : "edge_damping is 0"; },
+     [](const World& w, const ClothRecord& c) {
+       return c.settings.edge_damping == 0.0f    ? "edge_damping is 0"
+              : with_projection(w, c) == kNeeded ? "edges are projected"
+                                                 : kNeeded;
+     },
      [](ClothTick& t) {
        run(EdgeDamping{.garment = &t.garment,
                        .position = t.position,

@@ -20,6 +20,13 @@ void run(const System& system, Counters&... counters) {
 constexpr const char* kNeeded = nullptr;
 inline const char* always(const World&, const ClothRecord&) { return kNeeded; }
 
+/// Why the integrator does not project the edges of the cloth, or kNeeded.
+inline const char* with_projection(const World&, const ClothRecord& c) {
+  return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
+         : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
+                                                             : kNeeded;
+}
+
 inline const char* with_colliders(const World& w, const ClothRecord&) {
   return w.colliders.empty() ? "no collider" : kNeeded;
 }

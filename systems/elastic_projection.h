@@ -10,19 +10,21 @@
 
 namespace pleat {
 
-/// One pass over the edges, in order, in place of ElasticForce: moves the ends of each to where the force of eq (1) at
-/// the end of the step would bring them, were they alone in the world,
-///   x_i += w_i dt^2 F / (1 + (w_i + w_j) dt^2 k q.d/(l L)),   F = k (l - L)/L q,   x_j likewise with -F
-/// where d = x_j - x_i and q is the same where the step began (pull_direction.h).
-/// For soft edges that is ElasticForce, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
+/// One pass over the edges, in order, in place of ElasticForce and EdgeDamping: moves the ends of each to where the
+/// forces of both at the end of the step would bring them, were they alone in the world,
+///   x_i += w_i dt^2 F / (1 + (w_i + w_j) (dt^2 k/L + c dt/l0) q.d/l),   x_j likewise with -F
+///   F = (k (l - L)/L + c (l - l0)/(l0 dt)) q,   c = rate / (w_i + w_j)
+/// where d = x_j - x_i, q is the same where the step began, and l0 its length (pull_direction.h).
+/// For soft edges that is their force, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law.
 /// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
 /// Writes: position (P) m; packed, scratch.  Cost: O(P + S), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
-  EdgeLaw law;      // stiffness > 0
-  float dt = 0.0f;  // s
+  EdgeLaw law;                // stiffness > 0
+  float damping_rate = 0.0f;  // 1/s
+  float dt = 0.0f;            // s
   ConstVec3View way;
   Vec3View position;
   Vec4Columns* packed = nullptr;  // holds (P)

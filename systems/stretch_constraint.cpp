@@ -21,10 +21,10 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in, VectorSet se
     const auto moves = (l2 > longest * longest) & (l2 >= kShortest2) & (weight > 0.0f);
     if (!any(moves)) return;
     const auto [way, along] = pull_direction(d, l2, edge.way());
-    const auto l = sqrt(l2), yielding = moves ? weight * along : decltype(l2){} + 1.0f;
-    const auto pull = way * (relaxation * (l - longest) * l / yielding);
-    edge.put(0, choose(moves, a.vector + pull * a.w, a.vector), a.w);
-    edge.put(1, choose(moves, b.vector - pull * b.w, b.vector), b.w);
+    const auto l = sqrt(l2), yielding = moves ? weight * along : decltype(l){} + 1.0f;
+    const auto pull = way * (moves ? relaxation * (l - longest) * l / yielding : decltype(l){});
+    edge.put(0, a.vector + pull * a.w, a.w);
+    edge.put(1, b.vector - pull * b.w, b.w);
   });
   return skipped;
 }

@@ -41,12 +41,13 @@ TEST(Schedule, PhasesOfTheTableNeverGoBack) {
 TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
-  for (const char* name : {"pin_motion", "edge_ways", "elastic_projection", "hinge_bending", "edge_damping", "gravity",
-                           "air_damping", "inner_friction", "euler_integration", "stretch_constraint",
-                           "velocity_update", "finite_guard", "rounding_hold"}) {
+  for (const char* name :
+       {"pin_motion", "edge_ways", "elastic_projection", "hinge_bending", "gravity", "air_damping", "inner_friction",
+        "euler_integration", "stretch_constraint", "velocity_update", "finite_guard", "rounding_hold"}) {
     EXPECT_TRUE(runs(scene.explain(name))) << scene.explain(name);
   }
   EXPECT_TRUE(scene.explain("elastic_force").ends_with("left out: edges are projected"));
+  EXPECT_TRUE(scene.explain("edge_damping").ends_with("left out: edges are projected"));
   EXPECT_TRUE(scene.explain("air_drag").ends_with("left out: drag_coefficient and lift_coefficient are 0"));
   EXPECT_TRUE(scene.explain("tether_constraint").ends_with("left out: no particle is far from a pin"));
   EXPECT_TRUE(scene.explain("runge_kutta_integration").ends_with("left out: another integrator"));
@@ -65,6 +66,9 @@ TEST(Schedule, SettingsOfZeroLeaveTheirSystemOutAndSayWhy) {
   EXPECT_TRUE(scene.explain("rounding_hold").ends_with("left out: inner_friction is 0"));
   EXPECT_TRUE(scene.explain("stretch_constraint").ends_with("left out: stretch_limit is 1 or more"));
   EXPECT_TRUE(runs(scene.explain("air_drag")));
+  s.edge_damping = 1.0f;
+  must(call::cloth_set(scene, cloth, &s));
+  EXPECT_TRUE(runs(scene.explain("edge_damping")));
 #ifdef PLEAT_WITH_SMOOTHING
   EXPECT_TRUE(scene.explain("particle_normals").ends_with("left out: flat surface"));
 #endif

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "components/lanes.h"
+#include "systems/edge_damping.h"
 #include "systems/elastic_force.h"
 #include "tests/systems/sheet.h"
 
@@ -44,6 +45,10 @@ TEST(ElasticProjection, RefusesToRunWithAFieldMissing) {
     bad = good, bad.law.stiffness = value;
     EXPECT_FALSE(bad.validate());
     bad = good, bad.dt = value;
+    EXPECT_FALSE(bad.validate());
+  }
+  for (const float value : {-1.0f, kNan}) {
+    bad = good, bad.damping_rate = value;
     EXPECT_FALSE(bad.validate());
   }
 }
@@ -94,10 +99,54 @@ TEST(ElasticProjection, EndsWhereTheForceOfItsLawLeadsThere) {
   }
 }
 
+/// Lets the sheet drift for a step.
+void drift(Sheet& sheet, float speed) {
+  shake(sheet.velocity, sheet.count, speed, 7);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) {
+    sheet.previous.set(i, sheet.position[i]);
+    if (sheet.inverse_mass[i] == 0.0f) sheet.velocity.set(i, {});
+    sheet.position.add(i, sheet.velocity[i] * kDt);
+  }
+}
+
+TEST(ElasticProjection, BrakesAsDampingForcesDo) {
+  Sheet projected = shaken_sheet(), forced = shaken_sheet();
+  drift(projected, 0.1f), drift(forced, 0.1f);
+  constexpr float kRate = 0.5f;
+  ElasticProjection braked = job(projected, 1e-9f);
+  braked.damping_rate = kRate;
+  braked.run();
+  EdgeDamping{&forced.garment, forced.previous, forced.velocity, forced.inverse_mass, kRate, kDt,
+              &forced.packed,  forced.force}
+      .run();
+  for (std::uint32_t i = 0; i < forced.count; ++i) {
+    const Vec3 expected = forced.force[i] * (forced.inverse_mass[i] * kDt * kDt);
+    EXPECT_NEAR(length(projected.position[i] - forced.position[i] - expected), 0.0f, 0.02f * length(expected) + 1e-7f);
+  }
+}
+
+TEST(ElasticProjection, OfAStronglyDampedEdgeKeepsItsLength) {
+  for (const float stretch : {0.9f, 1.2f}) {
+    Sheet face({{{0, 0, 0}, {2, 0, 0}, {1, 0, -1}}, {{0, 1, 2}}});
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      face.previous.set(i, face.position[i]);
+      face.position.set(i, face.position[i] * stretch);
+    }
+    face.garment.slot_count = kLanes;  // its first edge
+    ElasticProjection edge = job(face, 1e-9f);
+    edge.damping_rate = 1e6f;
+    edge.run();
+    const Vec3 d = face.position[face.garment.edge_particle[1][0]] - face.position[face.garment.edge_particle[0][0]];
+    EXPECT_NEAR(length(d), face.garment.edge_rest_length[0], 1e-3f) << stretch;
+  }
+}
+
 TEST(ElasticProjection, EdgeByEdgeAndSideBySideGiveTheSameBits) {
   Sheet single = shaken_sheet(), wide = shaken_sheet();
-  job(single, 300.0f).run(VectorSet::kBaseline);
-  job(wide, 300.0f).run(widest_vectors());
+  drift(single, 1.0f), drift(wide, 1.0f);
+  ElasticProjection one = job(single, 300.0f), all = job(wide, 300.0f);
+  one.damping_rate = all.damping_rate = 4.0f;
+  one.run(VectorSet::kBaseline), all.run(widest_vectors());
   for (std::uint32_t i = 0; i < wide.count; ++i) EXPECT_EQ(single.position[i], wide.position[i]);
 }
 
@@ -127,6 +176,11 @@ TEST(ElasticProjection, HoldsPinsAndSurvivesACollapsedCloth) {
   const Vec3 pin = sheet.position[4];
   job(sheet, 100.0f).run();
   EXPECT_EQ(sheet.position[4], pin);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, {1, 2, 3});
+  ElasticProjection braked = job(sheet, 1e12f);
+  braked.damping_rate = 1e6f;
+  braked.run();
+  for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_TRUE(is_finite(sheet.position[i]));
 }
 
 TEST(ElasticProjectionProperty, KeepsMomentum) {
