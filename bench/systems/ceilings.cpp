@@ -54,7 +54,7 @@ void triad(benchmark::State& state, size_t bytes) {
 
 void register_ceilings() {
   benchmark::RegisterBenchmark("ceiling/flop/baseline", multiply_and_add<4>, VectorSet::kBaseline);
-  if (widest_vectors() == VectorSet::kAvx2) {
+  if (widest_vectors() >= VectorSet::kAvx2) {
     benchmark::RegisterBenchmark("ceiling/flop/avx2", multiply_and_add<8>, VectorSet::kAvx2);
   }
   for (const auto& [name, bytes] :

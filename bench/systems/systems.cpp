@@ -48,11 +48,12 @@ void register_systems() {
   for (const Row& row : schedule_table()) {
     if (!is_needed(row)) continue;
     for (const SkirtSize size : kSkirtSizes) {
-      for (const VectorSet set : {VectorSet::kBaseline, VectorSet::kAvx2}) {
+      for (const VectorSet set : kVectorSets) {
         if (set > widest_vectors()) continue;
+        constexpr const char* kNames[] = {"/baseline", "/avx2", "/avx512"};
         std::string name = row.name;
         name += '/' + std::to_string(size.particles());
-        name += set == VectorSet::kAvx2 ? "/avx2" : "/baseline";
+        name += kNames[static_cast<std::size_t>(set)];
         benchmark::RegisterBenchmark(name.c_str(), time_system, row, size, set)->UseManualTime();
       }
     }

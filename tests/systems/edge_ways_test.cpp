@@ -11,7 +11,8 @@ TEST(EdgeWays, LeadFromEndToEnd) {
   Sheet sheet(make_grid({.rows = 5, .columns = 4}));
   shake(sheet.previous, sheet.count, 0.5f, 3);
   const Garment& g = sheet.garment;
-  for (const VectorSet set : {VectorSet::kBaseline, widest_vectors()}) {
+  for (const VectorSet set : kVectorSets) {
+    if (set > widest_vectors()) continue;
     EdgeWays{&g, sheet.previous, &sheet.packed, sheet.edge_way.view()}.run(set);
     std::uint32_t edges = 0;
     for (std::uint32_t s = 0; s < g.slot_count; ++s) {

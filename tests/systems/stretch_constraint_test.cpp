@@ -170,8 +170,9 @@ TEST(StretchConstraint, SlackEdgesAreLeftAlone) {
 }
 
 TEST(StretchConstraint, EdgeByEdgeAndSideBySideGiveTheSameBits) {
-  std::vector<Vec3> places[2];
-  for (const VectorSet set : {VectorSet::kBaseline, widest_vectors()}) {
+  std::vector<Vec3> places, expected;
+  for (const VectorSet set : kVectorSets) {
+    if (set > widest_vectors()) continue;
     static constexpr std::uint32_t kPins[] = {0, 6};
     Sheet sheet(make_grid({.rows = 9, .columns = 7}), kPins);
     shake(sheet.previous, sheet.count, 0.02f, 6);
@@ -181,10 +182,11 @@ TEST(StretchConstraint, EdgeByEdgeAndSideBySideGiveTheSameBits) {
     Stats stats;
     for (int pass = 0; pass < 4; ++pass) job(sheet).run(stats, set);
     EXPECT_GT(stats.edges_skipped, 0u);
-    for (std::uint32_t i = 0; i < sheet.count; ++i) places[set == VectorSet::kBaseline].push_back(sheet.position[i]);
+    places.clear();
+    for (std::uint32_t i = 0; i < sheet.count; ++i) places.push_back(sheet.position[i]);
+    if (set == VectorSet::kBaseline) expected = places;
+    EXPECT_EQ(std::memcmp(places.data(), expected.data(), 63 * sizeof(Vec3)), 0);
   }
-  ASSERT_EQ(places[0].size(), 63u);
-  EXPECT_EQ(std::memcmp(places[0].data(), places[1].data(), 63 * sizeof(Vec3)), 0);
 }
 
 TEST(StretchConstraint, CollapsedEdgesAreSkippedAndCounted) {
