@@ -205,7 +205,8 @@ constexpr Row kRows[] = {
                             .friction = t.settings.friction,
                             .dt = t.dt,
                             .candidates = &t.worker.capsule_candidates,
-                            .contacts = contacts_of(t)},
+                            .contacts = contacts_of(t),
+                            .blocks = t.worker.capsule_blocks.data()},
            t.worker.stats);
      }},
     {Phase::kContact, "plane_detection", with_planes,

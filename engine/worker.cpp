@@ -54,6 +54,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   if (world.colliders.empty()) return;
   const Garment& g = cloth.garment();
   at_least(worker.capsule_poses, capsule_room(world.capsules.size()));
+  at_least(worker.capsule_blocks, capsule_blocks(worker.capsule_poses.size()));
   at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
   CapsuleCandidateColumns& candidates = worker.capsule_candidates;
   at_least(candidates.near, FeatureWords(g).end * worker.capsule_poses.size());

@@ -1,6 +1,7 @@
 // What one worker needs to run cloths, one at a time.
 #pragma once
 
+#include "components/capsule_block.h"
 #include "components/capsule_candidates.h"
 #include "components/clearance_plane.h"
 #include "components/contacts.h"
@@ -21,6 +22,7 @@ struct Worker {
   Vec3Column edge_way;         // m, systems/edge_ways.h
   HingeScratch hinge_scratch;  // empty unless a cloth resists bending
   Column<CapsulePose> capsule_poses;
+  Column<CapsuleBlock> capsule_blocks;
   CapsuleCandidateColumns capsule_candidates;
   Column<ContactRow> contacts;
   MeshCandidateColumns mesh_candidates;
@@ -42,6 +44,7 @@ struct Worker {
         edge_way(m),
         hinge_scratch(m),
         capsule_poses(m),
+        capsule_blocks(m),
         capsule_candidates(m),
         contacts(m),
         mesh_candidates(m),

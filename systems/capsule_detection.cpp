@@ -30,9 +30,10 @@ struct Batch {
   std::uint32_t count = 0;
 
   std::uint32_t used() const { return (1u << count) - 1; }  // a bit a place
-  /// Column `of` of the features; places without one repeat the first.
+  /// Places without a feature repeat the first.
+  void fill_up() { std::fill(feature + count, feature + kLanes, feature[0]); }
   void look_up(const Column<std::uint32_t>& of, std::uint32_t (&found)[kLanes]) const {
-    for (std::uint32_t k = 0; k < kLanes; ++k) found[k] = of[feature[k < count ? k : 0]];
+    for (std::uint32_t k = 0; k < kLanes; ++k) found[k] = of[feature[k]];
   }
 };
 
@@ -45,6 +46,7 @@ struct CapsuleTest {
   const std::uint64_t* near;
   FeatureWords words = FeatureWords(*in.garment);
   float reach = widest_radius(capsule) + in.thickness + margin;  // from the core
+  Core lanes = Core(capsule, reach + kLaneRounding);
 
   void run(Stats& stats) const {
     test_particles(stats);
@@ -65,32 +67,37 @@ struct CapsuleTest {
   /// that face each other; where they part at a right angle or wider the cloth can leave and neither gives way.
   float given_up(const Vec3& p, const Vec3& normal, float missing) const {
     float given = 0.0f;
-    for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
-      const CapsulePose& other = in.capsules[c];
-      const bool is_behind = dot(normal, p - other.a) >= 0.0f && dot(normal, p - other.b) >= 0.0f;
-      if (is_behind || &other == &capsule) continue;
-      const float t = closest_on_capsule(p, other);
-      const float needed = radius_at(other, t) + in.thickness + missing;  // from the other's core, for room enough
-      if (needed <= 0.0f) continue;
-      const Vec3 away = p - lerp(other.a, other.b, t);
-      const float facing = -dot(normal, away), d2 = dot(away, away);
-      if (facing <= 0.0f || d2 >= needed * needed) continue;
-      const float d = std::sqrt(d2);
-      given = std::max(given, 0.5f * (needed - d) * std::min(1.0f, 2.0f * facing / d));  // in full within 60 degrees
+    for (std::uint32_t first = 0; first < in.capsule_count; first += kLanes) {
+      const CapsuleBlock& block = in.blocks[first / kLanes];
+      std::uint32_t pressing = bits(may_press(block, p, normal, in.thickness + missing));
+      for (; pressing != 0; pressing &= pressing - 1) {
+        const CapsulePose& other = in.capsules[first + static_cast<std::uint32_t>(std::countr_zero(pressing))];
+        if (&other != &capsule) given = std::max(given, given_up_to(other, p, normal, missing));
+      }
     }
     return given;
+  }
+  float given_up_to(const CapsulePose& other, const Vec3& p, const Vec3& normal, float missing) const {
+    const float t = closest_on_capsule(p, other);
+    const float needed = radius_at(other, t) + in.thickness + missing;  // from the other's core, for room enough
+    if (needed <= 0.0f) return 0.0f;
+    const Vec3 away = p - lerp(other.a, other.b, t);
+    const float facing = -dot(normal, away), d2 = dot(away, away);
+    if (facing <= 0.0f || d2 >= needed * needed) return 0.0f;
+    const float d = std::sqrt(d2);
+    return 0.5f * (needed - d) * std::min(1.0f, 2.0f * facing / d);  // in full within 60 degrees
   }
 
   /// A row that keeps a point of the cloth, now `away` from core(t) and `away_before` from it when the substep began,
   /// on the side where it was.
   void add_round(const std::uint32_t (&particle)[3], const float (&weight)[3], float t, const Vec3& away,
-                 const Vec3& away_before, bool at_particle, Stats& stats, float relaxation = 1.0f) const {
+                 const Vec3& away_before, std::uint32_t count, Stats& stats, float relaxation = 1.0f) const {
     const float side = dot(away, away_before) < 0.0f ? -1.0f : 1.0f;
     const float away2 = dot(away, away);
     const Vec3 normal = away2 > 1e-12f ? away * (side / std::sqrt(away2))
                                        : normalized_or(away_before, any_perpendicular(capsule.b - capsule.a));
     const float kept = distance(t) - given_up(core(t) + away, normal, distance(t) - dot(normal, away));
-    rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, at_particle, stats, relaxation);
+    rows.add(particle, weight, normal, core(t), kept, core_step(t), capsule.friction, count, stats, relaxation);
   }
 
   void test_particles(Stats& stats) const {
@@ -100,7 +107,7 @@ struct CapsuleTest {
       const float t = closest_on_capsule(p, capsule);
       const Vec3 away = p - core(t);
       if (!(dot(away, away) < reach * reach)) return;
-      add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, away, in.previous[i] - core_before(t), true, stats);
+      add_round({i, i, i}, {1.0f, 0.0f, 0.0f}, t, away, in.previous[i] - core_before(t), 1, stats);
     });
   }
 
@@ -114,44 +121,38 @@ struct CapsuleTest {
       test(batch);
       batch.count = 0;
     });
-    if (batch.count != 0) test(batch);
+    if (batch.count == 0) return;
+    batch.fill_up();
+    test(batch);
   }
-
-  /// Where the lanes of a batch come closest, and which may be within reach: most candidates no longer are.
-  struct EdgeBatch {
-    float s[kLanes], t[kLanes];
-    std::uint32_t near, crossing;  // a bit a lane
-  };
 
   void test_edges(Stats& stats) const {
     const auto& end = in.garment->edge_particle;
     for_each_batch(near + words.edges, near + words.faces, [&](const Batch& batch) {
       std::uint32_t i[kLanes], j[kLanes];
       batch.look_up(end[0], i), batch.look_up(end[1], j);
-      EdgeBatch found;
-      run_wide(widest_vectors(), [&] {
-        const Core core(capsule, reach + kLaneRounding);
-        const EdgeDistance distance(core, EdgeLanes(in.position, i, j));
-        store(distance.s, found.s), store(distance.t, found.t);
-        found.near = bits(distance.distance2 < core.reach2) & batch.used();
-        found.crossing = capsule.taper == 0.0f ? bits(distance.crosses) : 0;
-      });
-      for (std::uint32_t rest = found.near; rest != 0; rest &= rest - 1) {
+      const EdgeDistance found(lanes, EdgeLanes(in.position, i, j));
+      const LaneMask known = capsule.taper == 0.0f ? found.crosses : LaneMask{};
+      const LaneMask at_end = (found.s < kEndShare) | (found.s > 1.0f - kEndShare);
+      float s[kLanes], t[kLanes];
+      store(found.s, s), store(found.t, t);
+      const std::uint32_t good = bits(known);
+      std::uint32_t rest = bits((found.distance2 < lanes.reach2) & ~(known & at_end)) & batch.used();
+      for (; rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest);
-        const bool known = (found.crossing >> k & 1) != 0;
         const Vec3 xi = in.position[i[k]], xj = in.position[j[k]];
-        test_edge(i[k], j[k], known ? SegmentPair{found.s[k], found.t[k]} : closest_to_capsule(xi, xj, capsule), stats);
+        const bool is_good = (good >> k & 1) != 0;
+        test_edge(i[k], j[k], is_good ? SegmentPair{s[k], t[k]} : closest_to_capsule(xi, xj, capsule), stats);
       }
     });
   }
 
   void test_edge(std::uint32_t i, std::uint32_t j, const SegmentPair& at, Stats& stats) const {
-    const Vec3 xi = in.position[i], xj = in.position[j];
     if (at.s < kEndShare || at.s > 1.0f - kEndShare) return;
-    const Vec3 away = lerp(xi, xj, at.s) - core(at.t);
+    const Vec3 away = lerp(in.position[i], in.position[j], at.s) - core(at.t);
     if (!(dot(away, away) < reach * reach)) return;
     const Vec3 away_before = lerp(in.previous[i], in.previous[j], at.s) - core_before(at.t);
-    add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, false, stats, relaxation_at(at.s));
+    add_round({i, j, j}, {1.0f - at.s, at.s, 0.0f}, at.t, away, away_before, 2, stats, relaxation_at(at.s));
   }
 
   /// Where an end of the core is over the inside of a face; all other places that are closest belong to its edges.
@@ -160,37 +161,30 @@ struct CapsuleTest {
     for_each_batch(near + words.faces, near + words.end, [&](const Batch& batch) {
       std::uint32_t i[kLanes], j[kLanes], k[kLanes];
       batch.look_up(corner[0], i), batch.look_up(corner[1], j), batch.look_up(corner[2], k);
-      std::uint32_t over = 0;
-      run_wide(widest_vectors(), [&] {
-        over = bits(is_under(Core(capsule, reach + kLaneRounding), FaceLanes(in.position, i, j, k))) & batch.used();
-      });
-      for (; over != 0; over &= over - 1) {
-        const int lane = std::countr_zero(over);
-        test_face(i[lane], j[lane], k[lane], stats);
+      const FaceAreas faces(gather(in.position, i), gather(in.position, j), gather(in.position, k));
+      const PointOver a(faces, all(core(0.0f)), reach), b(faces, all(core(1.0f)), reach);
+      const std::uint32_t over_a = bits(a.over) & batch.used();
+      const std::uint32_t over_b = capsule.a == capsule.b ? 0 : bits(b.over) & batch.used();
+      for (std::uint32_t rest = over_a | over_b; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+        const std::uint32_t face[] = {i[lane], j[lane], k[lane]};
+        if ((over_a >> lane & 1) != 0) add_flat(face, a.second[lane], a.third[lane], 0.0f, stats);
+        if ((over_b >> lane & 1) != 0) add_flat(face, b.second[lane], b.third[lane], 1.0f, stats);
       }
     });
   }
 
-  void test_face(std::uint32_t i, std::uint32_t j, std::uint32_t k, Stats& stats) const {
-    const Vec3 xi = in.position[i], u = in.position[j] - xi, v = in.position[k] - xi;
-    const Vec3 area = cross(u, v);
-    const float area2 = dot(area, area);
-    if (!(area2 > 1e-16f)) return;
-    for (int end = 0; end < (capsule.a == capsule.b ? 1 : 2); ++end) {
-      const float t = static_cast<float>(end);
-      const Vec3 w = core(t) - xi;
-      const float height = dot(w, area);
-      if (height * height > reach * reach * area2) continue;
-      const float bj = dot(cross(w, v), area) / area2, bk = dot(cross(u, w), area) / area2;
-      if (!(bj > 0.0f && bk > 0.0f && bj + bk < 1.0f)) continue;
-      const float bi = 1.0f - bj - bk;
-      const Vec3 before = in.previous[i] * bi + in.previous[j] * bj + in.previous[k] * bk - core_before(t);
-      const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
-      const Vec3 normal = area * (side / std::sqrt(area2));
-      const float away = -dot(w, normal);
-      const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
-      rows.add({i, j, k}, {bi, bj, bk}, normal, core(t), kept, core_step(t), capsule.friction, false, stats);
-    }
+  /// A row that keeps a face, at these weights of its second and third corners, on its side of core(t).
+  void add_flat(const std::uint32_t (&face)[3], float second, float third, float t, Stats& stats) const {
+    const auto& [i, j, k] = face;
+    const float first = 1.0f - second - third;
+    const Vec3 xi = in.position[i], area = cross(in.position[j] - xi, in.position[k] - xi);
+    const Vec3 before = in.previous[i] * first + in.previous[j] * second + in.previous[k] * third - core_before(t);
+    const float side = dot(before, area) < 0.0f ? -1.0f : 1.0f;
+    const Vec3 normal = area * (side / std::sqrt(dot(area, area)));
+    const float away = dot(xi - core(t), normal);
+    const float kept = distance(t) - given_up(core(t) + normal * away, normal, distance(t) - away);
+    rows.add(face, {first, second, third}, normal, core(t), kept, core_step(t), capsule.friction, 3, stats);
   }
 };
 
@@ -198,18 +192,24 @@ struct CapsuleTest {
 
 bool CapsuleDetection::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
-         (capsules != nullptr || capsule_count == 0) && candidates != nullptr &&
+         (capsule_count == 0 || (capsules != nullptr && blocks != nullptr)) && candidates != nullptr &&
          candidates->near.size() >= FeatureWords(*garment).end * capsule_count && contacts.count != nullptr &&
          thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
 }
 
 void CapsuleDetection::run(Stats& stats) const {
+  for (std::uint32_t c = 0; c < capsule_count; ++c) {
+    if (c % kLanes == 0) blocks[c / kLanes] = CapsuleBlock{};
+    blocks[c / kLanes].put(c % kLanes, capsules[c]);
+  }
   const float margin = contact_margin(position, previous, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   const std::uint64_t* near = candidates->near.data();
-  for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
-    CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
-  }
+  run_wide(widest_vectors(), [&] {
+    for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
+      CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
+    }
+  });
 }
 
 }  // namespace pleat

@@ -5,6 +5,7 @@
 //   makes a row.
 #pragma once
 
+#include "components/capsule_block.h"
 #include "components/capsule_candidates.h"
 #include "components/contacts.h"
 #include "components/stats.h"
@@ -17,7 +18,7 @@ namespace pleat {
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules; candidates, of these
-/// Writes: contacts, added to; stats.contacts_dropped
+/// Writes: contacts, added to; stats.contacts_dropped; blocks
 /// Cost:   O(candidates), no allocation. Errors: none; features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
@@ -31,6 +32,7 @@ struct CapsuleDetection {
   float dt = 0.0f;  // s, of the substep
   const CapsuleCandidateColumns* candidates = nullptr;
   ContactList contacts;
+  CapsuleBlock* blocks = nullptr;  // scratch, capsule_blocks(capsule_count)
 
   bool validate() const;
   void run(Stats& stats) const;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "components/capsule_block.h"
 #include "components/garment.h"
 #include "components/lanes.h"
 #include "components/wide.h"
@@ -35,6 +36,16 @@ PLEAT_KERNEL Vec3Lanes away_from(const Core& core, const Vec3Lanes& position) {
 PLEAT_KERNEL LaneMask is_near(const Core& core, const Vec3Lanes& position) {
   const Vec3Lanes away = away_from(core, position);
   return dot(away, away) < core.reach2;
+}
+
+/// Which of the capsules may have a surface nearer to a place than `room`, and not lie behind it where it is to be
+/// moved along `normal`. Those that taper count as if they were as thick all along.
+PLEAT_KERNEL LaneMask may_press(const CapsuleBlock& capsules, const Vec3& place, const Vec3& normal, float room) {
+  const Vec3Lanes n = all(normal), from_a = all(place) - capsules.a;
+  const Lanes a_behind = dot(n, from_a), b_behind = a_behind - dot(n, capsules.axis);
+  const Vec3Lanes away = from_a - capsules.axis * clamped(dot(from_a, capsules.axis) / capsules.axis2);
+  const Lanes reach = capsules.widest + (room + kLaneRounding);
+  return (min(a_behind, b_behind) < kLaneRounding) & (reach > 0.0f) & (dot(away, away) < reach * reach);
 }
 
 struct EdgeLanes {
@@ -104,12 +115,28 @@ PLEAT_KERNEL LaneMask is_near(const Core& core, const FaceLanes& face) {
   return (a.height2 + a.beside2 < core.reach2) | (b.height2 + b.beside2 < core.reach2);
 }
 
-/// Whether an end of the core is, over the inside of the face.
-PLEAT_KERNEL LaneMask is_under(const Core& core, const FaceLanes& face) {
-  constexpr float kBeside2 = kLaneRounding * kLaneRounding;
-  const FaceDistance a(face, core.a), b(face, core.b);
-  return ((a.height2 < core.reach2) & (a.beside2 < kBeside2)) | ((b.height2 < core.reach2) & (b.beside2 < kBeside2));
-}
+/// Faces by their areas, for where points are straight over their inside.
+struct FaceAreas {
+  Vec3Lanes a, u, v, area;  // a corner, the sides to the next ones, m; their product, m2
+  Lanes area2;
+
+  PLEAT_KERNEL FaceAreas(const Vec3Lanes& corner, const Vec3Lanes& second, const Vec3Lanes& third)
+      : a(corner), u(second - corner), v(third - corner), area(cross(u, v)), area2(dot(area, area)) {}
+};
+
+/// Whether a point is, nearer than `reach`, and the weights of the second and third corners below it.
+struct PointOver {
+  Lanes second, third;
+  LaneMask over;
+
+  PLEAT_KERNEL PointOver(const FaceAreas& face, const Vec3Lanes& point, float reach) {
+    const Vec3Lanes w = point - face.a;
+    const Lanes height = dot(w, face.area), reach2 = reach * reach * face.area2;
+    second = dot(cross(w, face.v), face.area) / face.area2, third = dot(cross(face.u, w), face.area) / face.area2;
+    over = (face.area2 > 1e-16f) & (height * height <= reach2) & (second > 0.0f) & (third > 0.0f) &
+           (second + third < 1.0f);
+  }
+};
 
 /// From the core to where triangles are nearest to it, m; as gap_to_triangle without taper, with the rounding of
 /// EdgeDistance.

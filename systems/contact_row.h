@@ -37,14 +37,15 @@ struct ContactRowMaker {
   float dt = 0.0f;
   ContactList contacts;
 
-  /// n . (sum of weight x) >= n . surface + distance. Nothing is added where all weight is on pinned particles.
+  /// n . (sum of weight x) >= n . surface + distance, over `count` particles: one, an edge's two or a face's three.
+  /// Nothing is added where all weight is on pinned particles.
   /// `relaxation`: of what is missing, the share that is made up in each sweep.
   void add(const std::uint32_t (&particle)[3], const float (&weight)[3], const Vec3& normal, const Vec3& surface,
-           float distance, const Vec3& body_step, float body_friction, bool at_particle, Stats& stats,
+           float distance, const Vec3& body_step, float body_friction, std::uint32_t count, Stats& stats,
            float relaxation = 1.0f) const {
     add({.particle = {particle[0], particle[1], particle[2]},
          .weight = {weight[0], weight[1], weight[2]},
-         .count = at_particle ? 1u : 3u,
+         .count = count,
          .normal = normal,
          .offset = dot(normal, surface) + distance,
          .body_step = body_step,

@@ -145,7 +145,7 @@ struct MeshTest {
     const Vec3 step =
         at.point(pose.step(pose.corner(t, 0)), pose.step(pose.corner(t, 1)), pose.step(pose.corner(t, 2)));
     const std::uint32_t i = f.particle[c];
-    rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, thickness, step, friction, true, stats);
+    rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, normal, surface, thickness, step, friction, 1, stats);
   }
 
   /// A vertex q of the body over the inside of the face. Where it stands out, its angle-weighted normal tells its side,
@@ -192,12 +192,11 @@ struct MeshTest {
     const Vec3 normal = away * (side / std::sqrt(distance2));
     if (!pose.is_extreme(vertex, normal, kTurn)) return;
     rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - s, s, 0.0f}, normal, q, thickness,
-             pose.step(vertex), friction, false, stats);
+             pose.step(vertex), friction, 2, stats);
   }
 
   void add_face_row(const Face& f, const Standing& s) const {
-    rows.add(f.particle, s.weight, s.normal, pose.vertex(s.vertex), thickness, pose.step(s.vertex), friction, false,
-             stats);
+    rows.add(f.particle, s.weight, s.normal, pose.vertex(s.vertex), thickness, pose.step(s.vertex), friction, 3, stats);
   }
 
   /// Edge i of the face against edge k of triangle t. They matter where, seen along their common normal, they cross;
@@ -236,7 +235,7 @@ struct MeshTest {
     const SegmentPair at{s / common2, r / common2};
     const std::uint32_t va = pose.corner(t, k), vb = pose.corner(t, (k + 1) % 3);
     rows.add({f.particle[i], f.particle[j], f.particle[j]}, {1.0f - at.s, at.s, 0.0f}, normal, lerp(a, b, at.t),
-             thickness, lerp(pose.step(va), pose.step(vb), at.t), friction, false, stats);
+             thickness, lerp(pose.step(va), pose.step(vb), at.t), friction, 2, stats);
   }
 };
 

@@ -22,7 +22,7 @@ void PlaneDetection::run(Stats& stats) const {
       const float above = dot(pose.normal, position[i]) - pose.height;
       if (!(above < reach)) continue;
       const Vec3 surface = position[i] - pose.normal * above;
-      rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, pose.normal, surface, thickness, step.at(surface), plane.friction, true,
+      rows.add({i, i, i}, {1.0f, 0.0f, 0.0f}, pose.normal, surface, thickness, step.at(surface), plane.friction, 1,
                stats);
     }
   }

@@ -36,6 +36,7 @@ struct Walk {
     capsules[1].taper = -0.03f;
     cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
     cloth.candidates.sought.resize(capsules.size());
+    cloth.blocks.resize(capsule_blocks(capsules.size()));
   }
   void step() {
     std::uniform_real_distribution<float> any(-tremble, tremble);
@@ -73,7 +74,8 @@ struct Walk {
                      0.5f,
                      kDt,
                      &cloth.candidates,
-                     cloth.contacts()}
+                     cloth.contacts(),
+                     cloth.blocks.data()}
         .run(stats);
     return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};
   }

@@ -4,8 +4,10 @@
 
 #include <random>
 
+#include "systems/capsule_shape.h"
 #include "systems/closest_points.h"
 #include "systems/collision_response.h"
+#include "systems/contact_row.h"
 #include "tests/systems/contact_scene.h"
 
 namespace pleat::test {
@@ -18,6 +20,7 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
   cloth.row_count = 0;
   cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
   mark_all(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
+  cloth.blocks.resize(capsule_blocks(capsules.size()));
   return {&cloth.garment,
           cloth.position.view(),
           cloth.previous.view(),
@@ -28,7 +31,8 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
           0.5f,
           kDt,
           &cloth.candidates,
-          cloth.contacts()};
+          cloth.contacts(),
+          cloth.blocks.data()};
 }
 
 void respond(ContactCloth& cloth, int passes, FaceResponse response = FaceResponse::kWeighted) {
@@ -168,6 +172,65 @@ TEST(CapsuleDetection, OverlappingCapsulesMeetHalfWay) {
   }
 }
 
+/// What of its distance to `own` a place gives up to each of the others: the most of them.
+float given_up(const std::vector<CapsulePose>& capsules, std::size_t own, const Vec3& p, const Vec3& normal,
+               float missing) {
+  float most = 0.0f;
+  for (std::size_t c = 0; c < capsules.size(); ++c) {
+    const float t = closest_on_capsule(p, capsules[c]);
+    const Vec3 away = p - lerp(capsules[c].a, capsules[c].b, t);
+    const float d = length(away), lacks = radius_at(capsules[c], t) + kThickness + missing - d;
+    const float facing = -dot(normal, away) / d;
+    if (c != own && lacks > 0.0f && facing > 0.0f) most = std::max(most, 0.5f * lacks * std::min(1.0f, 2.0f * facing));
+  }
+  return most;
+}
+
+TEST(CapsuleDetection, GivesWayToWhicheverCapsulePressesMost) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  int rows = 0, gave_way = 0, to_one_beyond_eight = 0;
+  for (int n = 0; n < 10000; ++n) {
+    std::vector<CapsulePose> capsules(1 + random() % 20);
+    for (CapsulePose& c : capsules) {
+      c.a = Vec3{any(random), any(random), any(random)} * 0.3f, c.b = c.a + Vec3{any(random), 0.1f, any(random)} * 0.3f;
+      c.radius = 0.1f, c.taper = random() % 3 == 0 ? 0.04f * any(random) : 0.0f;
+      if (random() % 5 == 0) c.b = c.a, c.taper = 0.0f;
+    }
+    const Vec3 p = Vec3{any(random), any(random), any(random)} * 0.2f;
+    ContactCloth cloth({p, {9, 0, 0}, {9, 0, 1}}, {{0, 1, 2}});
+    Stats stats;
+    detection(cloth, capsules).run(stats);
+    std::size_t c = 0;
+    for (std::uint32_t k = 0; k < cloth.row_count; ++k) {
+      const ContactRow& row = cloth.rows[k];
+      if (!row.at_particle()) continue;
+      // Whose row it is: the next one that is near enough.
+      float t = 0.0f;
+      Vec3 away;
+      for (;; ++c) {
+        t = closest_on_capsule(p, capsules[c]), away = p - lerp(capsules[c].a, capsules[c].b, t);
+        if (length(away) < widest_radius(capsules[c]) + kThickness + kLeastMargin) break;
+      }
+      const float distance = radius_at(capsules[c], t) + kThickness;
+      const float given = given_up(capsules, c, p, row.normal, distance - length(away));
+      const float surface = dot(row.normal, lerp(capsules[c].a, capsules[c].b, t));
+      const float most = dot(row.normal, p) + kRecoverySpeed * kDt;
+      EXPECT_NEAR(row.offset, std::min(surface + distance - given, most), 2e-6f) << n;
+      if (surface + distance - given < most) {
+        ++rows, gave_way += given > 0.0f;
+        const std::vector<CapsulePose> first(capsules.begin(),
+                                             capsules.begin() + std::min<long>(8, std::ssize(capsules)));
+        to_one_beyond_eight += c < 8 && given_up(first, c, p, row.normal, distance - length(away)) < given;
+      }
+      ++c;
+    }
+  }
+  EXPECT_GT(rows, 1000);
+  EXPECT_GT(gave_way, 500);
+  EXPECT_GT(to_one_beyond_eight, 50);
+}
+
 TEST(CapsuleDetection, ACreaseBetweenCapsulesIsNoPinch) {
   const std::vector<CapsulePose> capsules = {
       {.a = {-1, -0.07f, 0}, .b = {1, -0.07f, 0}, .step_a = {}, .step_b = {}, .radius = 0.08f},
@@ -246,6 +309,11 @@ TEST(CapsuleDetection, ValidateRefusesBrokenFields) {
   bad = good;
   bad.capsule_count = 1;
   bad.capsules = nullptr;
+  EXPECT_FALSE(bad.validate());
+  const std::vector<CapsulePose> one(1);
+  bad = detection(cloth, one);
+  EXPECT_TRUE(bad.validate());
+  bad.blocks = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good;
   bad.dt = 0.0f;

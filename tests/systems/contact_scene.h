@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/capsule_block.h"
 #include "components/capsule_candidates.h"
 #include "components/colliders.h"
 #include "components/contacts.h"
@@ -21,6 +22,7 @@ struct ContactCloth {
   Vec3Column position{memory()}, previous{memory()}, velocity{memory()}, predicted{memory()}, force{memory()};
   Column<float> inverse_mass{memory()};
   CapsuleCandidateColumns candidates{memory()};
+  Column<CapsuleBlock> blocks{memory()};
   std::vector<ContactRow> rows = std::vector<ContactRow>(4096);
   std::uint32_t row_count = 0;
 
