@@ -10,6 +10,7 @@ namespace pleat {
 ///   1 + stretch + 2 (at_first h - at_second g - both h g) + unit (h^2 + g^2)
 struct FoldSprings {
   Lanes stretch[3], at_first[3], at_second[3], both[3], unit[3];
+  Lanes up[3], down[3];  // m, heights of the folds of its three edges
 };
 
 /// Edges that may fold to either side of their curves, and the springs between them.

@@ -56,6 +56,7 @@ PLEAT_KERNEL void span_springs(const FoldSides& s) {
       const std::uint32_t* edge = g.face_edge[k].data() + f;
       middle[k] = gather(s.choices->middle.data(), edge);
       direction[k] = gather(s.choices->direction.data(), edge).vector;
+      springs.up[k] = gather(s.choices->up.data(), edge), springs.down[k] = gather(s.choices->down.data(), edge);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3, across = (k + 2) % 3;
@@ -82,21 +83,21 @@ PLEAT_KERNEL void ask_springs(const FoldSides& s) {
   FoldChoices& c = *s.choices;
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     const FoldSprings& springs = c.springs[f / kLanes];
-    Lanes height[3], up[3], down[3], gain[3]{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t* edge = g.face_edge[k].data() + f;
-      height[k] = gather(c.height.data(), edge), up[k] = gather(c.up.data(), edge);
-      down[k] = gather(c.down.data(), edge);
-    }
+    Lanes height[3], gain[3]{};
+    for (std::size_t k = 0; k < 3; ++k) height[k] = gather(c.height.data(), g.face_edge[k].data() + f);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       const Lanes &stretch = springs.stretch[k], &first = springs.at_first[k], &second = springs.at_second[k],
                   &both = springs.both[k], &unit = springs.unit[k], &h = height[k], &j = height[l];
-      gain[k] += difference(stretch + j * (unit * j - 2.0f * second), first - both * j, unit, up[k], down[k]);
-      gain[l] += difference(stretch + h * (unit * h + 2.0f * first), -second - both * h, unit, up[l], down[l]);
+      gain[k] +=
+          difference(stretch + j * (unit * j - 2.0f * second), first - both * j, unit, springs.up[k], springs.down[k]);
+      gain[l] +=
+          difference(stretch + h * (unit * h + 2.0f * first), -second - both * h, unit, springs.up[l], springs.down[l]);
     }
-    const std::uint32_t count = std::min(kLanes, g.face_count - f);
-    for (std::size_t k = 0; k < 3; ++k) scatter_add(gain[k], g.face_edge[k].data() + f, count, c.gain.data());
+    const LaneMask faces = first_lanes(g.face_count - f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      scatter_add(faces ? gain[k] : Lanes{}, g.face_edge[k].data() + f, kLanes, c.gain.data());
+    }
   }
 }
 
@@ -113,9 +114,11 @@ PLEAT_KERNEL void decide(const FoldSides& s) {
 
 /// The drawn side follows the choice.
 PLEAT_KERNEL void follow(const FoldSides& s) {
-  for (std::uint32_t e = 0; e < s.garment->edge_count; ++e) {
-    const float chosen = s.choices->side[e];
-    s.side[e] = s.kept > 0.0f ? chosen + s.kept * (s.side[e] - chosen) : chosen;
+  const std::uint32_t edges = s.garment->edge_count;
+  for (std::uint32_t e = 0; e < edges; e += kLanes) {
+    const Lanes chosen = load(s.choices->side.data() + e);
+    const Lanes side = s.kept > 0.0f ? chosen + s.kept * (load(s.side + e) - chosen) : chosen;
+    store(side, s.side + e, std::min(kLanes, edges - e));
   }
 }
 

@@ -21,8 +21,8 @@ struct FoldSides {
   ConstVec3View position;
   ConstVec3View normal;
   FoldChoices* choices = nullptr;
-  float kept = 0.0f;  // share of the last frame's side that stays, 0 .. 1; 0 where there was no last frame
-  float* side = nullptr;
+  float kept = 0.0f;      // share of the last frame's side that stays, 0 .. 1; 0 where there was no last frame
+  float* side = nullptr;  // a column
 
   /// `kept` for a frame dt seconds after the last one.
   static float kept_after(float dt);
