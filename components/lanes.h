@@ -167,19 +167,27 @@ inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
   split(vector, w, each);
   for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[k]);
 }
+/// Eight vectors and what each carries besides.
+struct Vec4Lanes {
+  Vec3Lanes vector;
+  Lanes w;
+};
+
+/// As pack left them.
+inline Vec4Lanes load(const Vec4* from) {
+  Lanes pairs[4], places[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    pairs[k] = __builtin_shufflevector(load_four(from[k]), load_four(from[k + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  transpose(pairs, places);
+  return {{places[0], places[1], places[2]}, places[3]};
+}
 /// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
 inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
   for (std::size_t i = 0; i < count; i += kLanes) pack(load(from, i), w == nullptr ? Lanes{} : load(w + i), to + i);
 }
 inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    Lanes pairs[4], places[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      pairs[k] = __builtin_shufflevector(load_four(from[i + k]), load_four(from[i + k + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
-    }
-    transpose(pairs, places);
-    store({places[0], places[1], places[2]}, to, i);
-  }
+  for (std::size_t i = 0; i < count; i += kLanes) store(load(from + i).vector, to, i);
 }
 
 /// What forces on edges and hinges read and add to, as vectors; unpack(packed.force) brings them back.
@@ -189,12 +197,6 @@ inline void pack_state(ConstVec3View position, const float* inverse_mass, ConstV
   pack(velocity, nullptr, count, packed.velocity.data());
   pack(force, nullptr, count, packed.force.data());
 }
-
-/// Eight vectors and what each carries besides.
-struct Vec4Lanes {
-  Vec3Lanes vector;
-  Lanes w;
-};
 
 /// from[index[0]], from[index[1]], ...: a load for each, where three columns need three.
 inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "components/lanes.h"
 #include "components/pn_triangle.h"
 
 namespace pleat {
@@ -171,6 +172,16 @@ void add_twins(const Garment& g, TessellationPattern& pattern) {
   }
 }
 
+/// Rows of `vertices` numbers, one a face, as drawn_lanes and shaded_lanes have them.
+void set_lanes(const Column<std::uint32_t>& rows, std::uint32_t vertices, Column<std::uint32_t>& lanes) {
+  const std::size_t faces = rows.size() / vertices;
+  lanes.resize((faces + kLanes - 1) / kLanes * kLanes * vertices);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const std::size_t run = i / (kLanes * vertices), vertex = i / kLanes % vertices, f = run * kLanes + i % kLanes;
+    lanes[i] = rows[std::min(f, faces - 1) * vertices + vertex];
+  }
+}
+
 }  // namespace
 
 TessellationPattern build_tessellation(const Garment& garment, std::uint32_t level, std::pmr::memory_resource* memory) {
@@ -193,6 +204,8 @@ TessellationPattern build_tessellation(const Garment& garment, std::uint32_t lev
   set_face_weights(pattern);
   for (std::uint32_t f = 0; f < garment.face_count; ++f) set_face_vertices(garment, f, pattern);
   add_twins(garment, pattern);
+  set_lanes(pattern.face_vertices, pattern.vertices_per_face, pattern.drawn_lanes);
+  if (pattern.twins.size() != 0) set_lanes(pattern.face_shaded, pattern.vertices_per_face, pattern.shaded_lanes);
   for (std::uint32_t f = 0; f < garment.face_count; ++f) {
     const std::uint32_t* vertex = pattern.shaded_vertices() + std::size_t{f} * pattern.vertices_per_face;
     for (std::size_t i = 0; i < indices_per_face; ++i) {

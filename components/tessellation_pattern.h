@@ -38,6 +38,8 @@ struct TessellationPattern {
         twins(memory),
         face_vertices(memory),
         face_shaded(memory),
+        drawn_lanes(memory),
+        shaded_lanes(memory),
         face_weights(memory),
         face_triangles(memory) {}
 
@@ -53,8 +55,11 @@ struct TessellationPattern {
   // The same triangles as one list for all faces, over each face's own numbering of its vertices: the corners, then the
   // vertices along sides 0, 1 and 2 as the face runs, then the inner ones.
   std::uint32_t vertices_per_face = 0;
-  Column<std::uint32_t> face_vertices;        // vertices_per_face a face: their drawn vertices
-  Column<std::uint32_t> face_shaded;          // the same: their shaded vertices; empty where there are no twins
+  Column<std::uint32_t> face_vertices;  // vertices_per_face a face: their drawn vertices
+  Column<std::uint32_t> face_shaded;    // the same: their shaded vertices; empty where there are no twins
+  // The same for kernels, kLanes faces at once: for each of their own numbers one vertex a face. What the last faces
+  // leave empty repeats the last one.
+  Column<std::uint32_t> drawn_lanes, shaded_lanes;
   Column<std::array<float, 3>> face_weights;  // their barycentrics in the face
   Column<std::uint32_t> face_triangles;       // 3 of a face's own numbers a triangle
 
@@ -62,6 +67,13 @@ struct TessellationPattern {
   /// The drawn vertex where a shaded one is.
   std::uint32_t place(std::uint32_t shaded) const {
     return shaded < vertex_count ? shaded : twins[shaded - vertex_count];
+  }
+  /// Of face `begin`, a multiple of kLanes, and those next to it.
+  const std::uint32_t* drawn_of_faces(std::uint32_t begin) const {
+    return drawn_lanes.data() + std::size_t{begin} * vertices_per_face;
+  }
+  const std::uint32_t* shaded_of_faces(std::uint32_t begin) const {
+    return (twins.size() == 0 ? drawn_lanes : shaded_lanes).data() + std::size_t{begin} * vertices_per_face;
   }
   const std::uint32_t* shaded_vertices() const { return twins.size() == 0 ? face_vertices.data() : face_shaded.data(); }
 

@@ -40,8 +40,10 @@ void draw_base_normals(const World& world, const ClothRecord& cloth, const Lines
   const Garment& g = cloth.garment();
   const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
   Vec3Column base(std::pmr::new_delete_resource());
-  base.resize(g.normal_count);
-  ParticleNormals{.mode = SurfaceMode::kPn, .garment = &g, .position = x, .normal = base.view(), .fold = {}}.run();
+  Column<Vec4> sum(std::pmr::new_delete_resource());
+  base.resize(g.normal_count), sum.resize(g.normal_count);
+  ParticleNormals{.mode = SurfaceMode::kPn, .garment = &g, .position = x, .normal = base.view(), .sum = sum.data()}
+      .run();
   draw_normals(g, x, base.view(), kYellow, lines);
 }
 

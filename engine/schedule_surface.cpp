@@ -66,7 +66,8 @@ constexpr Row kRows[] = {
                            .garment = &t.garment,
                            .position = t.position,
                            .normal = t.normal,
-                           .fold = t.fold});
+                           .sum = t.worker.normal_sum.data(),
+                           .place = t.worker.packed.position.data()});
      }},
     {Phase::kFrameEnd, "fold_sides", with_sides,
      [](ClothTick& t) {
@@ -161,7 +162,10 @@ constexpr Row kRows[] = {
 #endif
     {Phase::kFrameEnd, "drawn_normals", always,
      [](ClothTick& t) {
-       run(DrawnNormals{.pattern = t.cloth.pattern(), .position = t.drawn_position, .normal = t.drawn_normal});
+       run(DrawnNormals{.pattern = t.cloth.pattern(),
+                        .position = t.drawn_position,
+                        .sum = t.worker.normal_sum.data(),
+                        .normal = t.drawn_normal});
      }},
     {Phase::kFrameEnd, "drawn_tangents", with_tangents,
      [](ClothTick& t) {

@@ -25,7 +25,9 @@ void at_least(Column& column, std::size_t size) {
 
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
-  if (cloth.settings.surface != PLEAT_SURFACE_PLEAT || cloth.pattern() == nullptr) return;
+  if (cloth.pattern() == nullptr) return;
+  at_least(worker.normal_sum, std::max(cloth.pattern()->shaded_count(), g.normal_count));
+  if (cloth.settings.surface != PLEAT_SURFACE_PLEAT) return;
   worker.fold_choices.make_room(g.edge_count, g.face_count);
   if (cloth.settings.fold_sweeps == 0) return;
   FoldScratch& scratch = worker.fold_scratch;

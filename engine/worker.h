@@ -29,6 +29,7 @@ struct Worker {
   NearScratch near_scratch;  // empty unless cloth touches cloth
   FoldChoices fold_choices;  // empty unless a cloth folds
   Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles
+  Column<Vec4> normal_sum;   // of normals and of shaded normals; empty unless a cloth is drawn
   Column<float> moved;       // m, from there to where they are drawn
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;
@@ -51,6 +52,7 @@ struct Worker {
         near_scratch(m),
         fold_choices(m),
         footprint(m),
+        normal_sum(m),
         moved(m),
         clearance_planes(m),
         near_triangles(m),

@@ -7,38 +7,35 @@
 
 namespace pleat {
 
-bool DrawnNormals::validate() const { return pattern != nullptr && position.x != nullptr && normal.x != nullptr; }
+bool DrawnNormals::validate() const {
+  return pattern != nullptr && position.x != nullptr && sum != nullptr && normal.x != nullptr;
+}
 
 void DrawnNormals::run() const {
   run_wide(widest_vectors(), [this] {
     const std::uint32_t* triangles = pattern->face_triangles.data();
-    const std::size_t triangle_indices = pattern->face_triangles.size();
-    const std::uint32_t vertices = pattern->vertices_per_face;
-    const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / vertices);
+    const std::uint32_t* last = triangles + pattern->face_triangles.size();
+    const std::uint32_t end = pattern->vertices_per_face * kLanes, shaded = pattern->shaded_count();
+    const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / pattern->vertices_per_face);
 
-    clear(normal, pattern->shaded_count());
-    Vec3Lanes x[kMaxVerticesPerFace], n[kMaxVerticesPerFace];  // a lane is a face
+    std::fill_n(sum, shaded, Vec4{});
+    constexpr std::size_t kRoom = kMaxVerticesPerFace * kLanes;
+    alignas(Lanes) float columns[6][kRoom];  // a lane is a face
+    const Vec3View x{columns[0], columns[1], columns[2]}, n{columns[3], columns[4], columns[5]};
     for (std::uint32_t begin = 0; begin < faces; begin += kLanes) {
-      const std::uint32_t count = std::min(kLanes, faces - begin);
-      const std::uint32_t* drawn = pattern->face_vertices.data() + std::size_t{begin} * vertices;
-      for (std::uint32_t v = 0; v < vertices; ++v) {
-        std::uint32_t index[kLanes];
-        for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[std::size_t{std::min(k, count - 1)} * vertices + v];
-        x[v] = gather(position, index);
-      }
-      std::fill_n(n, vertices, Vec3Lanes{});
-      for (std::size_t t = 0; t < triangle_indices; t += 3) {
-        const Vec3Lanes &a = x[triangles[t]], &b = x[triangles[t + 1]], &c = x[triangles[t + 2]];
+      const std::uint32_t* from = pattern->drawn_of_faces(begin);
+      for (std::uint32_t v = 0; v < end; v += kLanes) store(gather(position, from + v), x, v), store({}, n, v);
+      for (const std::uint32_t* t = triangles; t != last; t += 3) {
+        const Vec3Lanes a = load(x, t[0] * kLanes), b = load(x, t[1] * kLanes), c = load(x, t[2] * kLanes);
         const Vec3Lanes area = cross(b - a, c - a);
-        for (std::size_t k = 0; k < 3; ++k) n[triangles[t + k]] += area;
+        for (std::size_t k = 0; k < 3; ++k) store(load(n, t[k] * kLanes) + area, n, t[k] * kLanes);
       }
-      const std::uint32_t* shaded = pattern->shaded_vertices() + std::size_t{begin} * vertices;
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        const std::uint32_t* own = shaded + std::size_t{lane} * vertices;
-        for (std::uint32_t v = 0; v < vertices; ++v) normal.add(own[v], {n[v].x[lane], n[v].y[lane], n[v].z[lane]});
-      }
+      const std::uint32_t *to = pattern->shaded_of_faces(begin), count = std::min(kLanes, faces - begin);
+      for (std::uint32_t v = 0; v < end; v += kLanes) scatter_add(load(n, v), to + v, count, sum);
     }
-    normalize(normal, pattern->shaded_count());
+    for (std::uint32_t i = 0; i < shaded; i += kLanes) {
+      store(normalized_or(load(sum + i).vector, all(kAnyNormal)), normal, i, std::min(kLanes, shaded - i));
+    }
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "components/tessellation_pattern.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -9,12 +10,13 @@ namespace pleat {
 /// its area, made unit; across a crease nothing is summed. The quadratic normals of PN triangles are not used: they
 /// exaggerate folds and know nothing of them.
 /// Reads:  pattern triangles; position (V) m
-/// Writes: normal (S) unit, one a shaded vertex
+/// Writes: normal (S) unit, one a shaded vertex; sum, scratch
 /// Cost:   O(V), no allocation.
 /// Errors: none; where the triangles cancel or have no area the normal is some fixed unit vector.
 struct DrawnNormals {
   const TessellationPattern* pattern = nullptr;
   ConstVec3View position;
+  Vec4* sum = nullptr;  // (S) m2, a column
   Vec3View normal;
 
   bool validate() const;

@@ -37,7 +37,7 @@ PLEAT_KERNEL std::array<Lanes, 3> force_shares(const Vec3Lanes (&x)[3], const Ve
 template <Weighting weighting>
 PLEAT_KERNEL void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
-  clear(s.normal, g.normal_count);
+  std::fill_n(s.sum, g.normal_count, Vec4{});
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     Vec3Lanes x[3];
     Lanes rest[3];
@@ -50,7 +50,10 @@ PLEAT_KERNEL void sum_normals(const ParticleNormals& s) {
                                            ? force_shares(x, face, rest, g.mean_edge_length)
                                            : corner_weights<Lanes>({rest[0], rest[1], rest[2]}, g.mean_edge_length);
     const std::uint32_t count = std::min(kLanes, g.face_count - f);
-    for (std::size_t k = 0; k < 3; ++k) scatter_add(face * share[k], g.face_normal[k].data() + f, count, s.normal);
+    for (std::size_t k = 0; k < 3; ++k) scatter_add(face * share[k], g.face_normal[k].data() + f, count, s.sum);
+  }
+  for (std::uint32_t i = 0; i < g.normal_count; i += kLanes) {
+    store(load(s.sum + i).vector, s.normal, i, std::min(kLanes, g.normal_count - i));
   }
   complete_normals(g, s.normal);
   normalize(s.normal, g.normal_count);
@@ -69,23 +72,39 @@ PLEAT_KERNEL Vec3Lanes tilt_of_fold(const PnEdgeT<Lanes>& c, const Vec3Lanes& no
   return c.d * (kTilt * height * believed * defined / dd);
 }
 
+/// Particles with what they take of a tilt.
+PLEAT_KERNEL void pack_places(const ParticleNormals& s) {
+  const Garment& g = *s.garment;
+  for (std::uint32_t i = 0; i < g.particle_count; i += kLanes) {
+    Lanes share;
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+      const std::uint32_t p = std::min(i + k, g.particle_count - 1);
+      share[k] = static_cast<float>(static_cast<std::int32_t>(g.around_begin[p + 1] - g.around_begin[p]));
+    }
+    pack(load(s.position, i), 2.0f / max(share, all(1.0f)), s.place + i);
+  }
+}
+
 PLEAT_KERNEL void tilt_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
+  for (std::uint32_t i = 0; i < g.normal_count; i += kLanes) pack(load(s.normal, i), Lanes{}, s.sum + i);
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
-    const EdgeBlock block(g, s.position, s.normal, e);
-    const Vec3Lanes tilt = tilt_of_fold(block.curve(), block.na + block.nb, block.target);
-    store(tilt, s.fold, e, std::min(kLanes, g.edge_count - e));
-  }
-  const auto share = [&](std::uint32_t i) {
-    return 2.0f / static_cast<float>(std::max(g.around_begin[i + 1] - g.around_begin[i], 1u));
-  };
-  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
-    const Vec3 tilt = s.fold[e];
-    s.normal.add(g.edge_normal[0][e], tilt * -share(g.edge_particle[0][e]));
-    s.normal.add(g.edge_normal[1][e], tilt * share(g.edge_particle[1][e]));
+    const std::uint32_t *first = g.edge_normal[0].data() + e, *second = g.edge_normal[1].data() + e;
+    const Vec4Lanes a = gather(s.place, g.edge_particle[0].data() + e),
+                    b = gather(s.place, g.edge_particle[1].data() + e);
+    const Vec3Lanes na = gather(s.normal, first), nb = gather(s.normal, second);
+    const Vec3Lanes tilt =
+        tilt_of_fold({a.vector, b.vector, na, nb}, na + nb, load(g.edge_rest_curve_length.data() + e));
+    Four at_first[kLanes], at_second[kLanes];
+    split(tilt * -a.w, Lanes{}, at_first), split(tilt * b.w, Lanes{}, at_second);
+    const std::uint32_t count = std::min(kLanes, g.edge_count - e);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      store(load_four(s.sum[first[k]]) + at_first[k], s.sum[first[k]]);
+      store(load_four(s.sum[second[k]]) + at_second[k], s.sum[second[k]]);
+    }
   }
   for (std::uint32_t i = 0; i < g.normal_count; i += kLanes) {
-    const Vec3Lanes n = load(s.normal, i);
+    const Vec3Lanes n = load(s.sum + i).vector;
     const LaneMask tilted = abs(dot(n, n) - 1.0f) > kRounding;  // else bit for bit
     store(choose(tilted, normalized_or(n, all(kAnyNormal)), n), s.normal, i, std::min(kLanes, g.normal_count - i));
   }
@@ -93,6 +112,7 @@ PLEAT_KERNEL void tilt_normals(const ParticleNormals& s) {
 
 PLEAT_KERNEL void run_pleat(const ParticleNormals& s) {
   sum_normals<Weighting::kBase>(s);
+  pack_places(s);
   for (int round = 0; round < kRounds; ++round) tilt_normals(s);
 }
 
@@ -100,7 +120,7 @@ PLEAT_KERNEL void run_pleat(const ParticleNormals& s) {
 
 bool ParticleNormals::validate() const {
   return mode <= SurfaceMode::kArcPn && garment != nullptr && position.x != nullptr && normal.x != nullptr &&
-         (mode != SurfaceMode::kPleat || fold.x != nullptr);
+         sum != nullptr && (mode != SurfaceMode::kPleat || place != nullptr);
 }
 
 void ParticleNormals::run() const {

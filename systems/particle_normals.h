@@ -4,6 +4,7 @@
 
 #include "components/garment.h"
 #include "components/surface.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -17,7 +18,7 @@ namespace pleat {
 /// cloth waves as closely as its particles lie, flat faces show half of its slope, and the length that their edges
 /// miss shows the rest. Without short edges the normals are the base normals, bit for bit.
 /// Reads:  garment faces, edges and rest lengths; position (P) m
-/// Writes: normal (N) unit, as the garment counts them; for kPleat fold (E), as scratch
+/// Writes: normal (N) unit, as the garment counts them; sum, place, scratch
 /// Cost:   O(F + E + P), no allocation.
 /// Errors: none; where the faces around cancel, or there is none, the normal is some fixed unit vector.
 struct ParticleNormals {
@@ -25,7 +26,8 @@ struct ParticleNormals {
   const Garment* garment = nullptr;
   ConstVec3View position;
   Vec3View normal;
-  Vec3View fold = {};
+  Vec4* sum = nullptr;    // (N), a column: of what becomes normals
+  Vec4* place = nullptr;  // (P), a column: m and, w, the share of a tilt; for kPleat only
 
   bool validate() const;
   void run() const;

@@ -99,5 +99,21 @@ TEST(TessellationPattern, DrawnTrianglesFaceLikeTheirFaceAndCoverIt) {
   }
 }
 
+TEST(TessellationPattern, FacesSideBySideAreTheSameFaces) {
+  for (const float crease_angle : {4.0f, 0.5f}) {  // without twins and with them
+    const Surface s(garment_of(skirt(), crease_angle), 0);
+    const TessellationPattern& p = s.pattern;
+    ASSERT_EQ(p.twins.size() != 0, crease_angle < 1.0f);
+    for (std::uint32_t begin = 0; begin < s.garment.face_count; begin += kLanes) {
+      for (std::uint32_t i = 0; i < kLanes * p.vertices_per_face; ++i) {
+        const std::uint32_t face = std::min(begin + i % kLanes, s.garment.face_count - 1);
+        const std::size_t row = std::size_t{face} * p.vertices_per_face + i / kLanes;
+        EXPECT_EQ(p.drawn_of_faces(begin)[i], p.face_vertices[row]);
+        EXPECT_EQ(p.shaded_of_faces(begin)[i], p.shaded_vertices()[row]);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pleat

@@ -65,6 +65,8 @@ TEST(DrawnNormals, ValidateRefusesWhatIsMissing) {
   EXPECT_FALSE(d.validate());
   d = s.drawn_normals(), d.position = {};
   EXPECT_FALSE(d.validate());
+  d = s.drawn_normals(), d.sum = nullptr;
+  EXPECT_FALSE(d.validate());
   d = s.drawn_normals(), d.normal = {};
   EXPECT_FALSE(d.validate());
 }

@@ -175,6 +175,10 @@ TEST(ParticleNormals, ValidateRefusesWhatIsMissing) {
   EXPECT_FALSE(p.validate());
   p = s.particle_normals(), p.position = {};
   EXPECT_FALSE(p.validate());
+  p = s.particle_normals(), p.sum = nullptr;
+  EXPECT_FALSE(p.validate());
+  p = s.particle_normals(), p.place = nullptr;
+  EXPECT_FALSE(p.validate());
   p = s.particle_normals(), p.normal = {};
   EXPECT_FALSE(p.validate());
   p = s.particle_normals(), p.mode = static_cast<SurfaceMode>(7);

@@ -38,6 +38,7 @@ struct Surface {
   TessellationPattern pattern;
   Vec3Column position, normal, fold, drawn, drawn_normal;
   Column<float> fold_height, fold_side;
+  Column<Vec4> normal_sum, place;
   FoldChoices choices;
   float kept = 0.0f;  // of the last frame's sides
   SurfaceMode mode = SurfaceMode::kPleat;
@@ -53,14 +54,17 @@ struct Surface {
         drawn_normal(m),
         fold_height(m),
         fold_side(m),
+        normal_sum(m),
+        place(m),
         choices(m) {
-    position.resize(garment.particle_count);
+    position.resize(garment.particle_count), place.resize(garment.particle_count);
     normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
     fold_height.resize(garment.edge_count), fold_side.resize(garment.edge_count);
     choices.make_room(garment.edge_count, garment.face_count);
     drawn.resize(pattern.vertex_count);
-    drawn_normal.resize(pattern.shaded_count());
+    drawn_normal.resize(pattern.shaded_count()),
+        normal_sum.resize(std::max(pattern.shaded_count(), garment.normal_count));
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
   }
 
@@ -74,7 +78,9 @@ struct Surface {
     move([&](const Vec3& x) { return x + Vec3{d(random), d(random), d(random)}; });
   }
 
-  ParticleNormals particle_normals() { return {mode, &garment, position.view(), normal.view(), fold.view()}; }
+  ParticleNormals particle_normals() {
+    return {mode, &garment, position.view(), normal.view(), normal_sum.data(), place.data()};
+  }
   FoldSides fold_sides() { return {&garment, position.view(), normal.view(), &choices, kept, fold_side.data()}; }
   EdgeLength edge_length() {
     return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), fold_side.data()};
@@ -82,7 +88,7 @@ struct Surface {
   Tessellation tessellation() {
     return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
   }
-  DrawnNormals drawn_normals() { return {&pattern, drawn.view(), drawn_normal.view()}; }
+  DrawnNormals drawn_normals() { return {&pattern, drawn.view(), normal_sum.data(), drawn_normal.view()}; }
 
   /// The next run is `dt` seconds after the last one of `before`.
   void follow(const Surface& before, float dt) {
