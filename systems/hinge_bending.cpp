@@ -19,11 +19,8 @@ PLEAT_KERNEL Lanes angle_between(const Lanes& theta, const Lanes& rest) {
 PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_rate, float bound, float step_damping,
                        HingeBlock& out, float* turned) {
   const Garment& g = *in.garment;
-  Vec4Lanes x[4], v[4];
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::uint32_t* index = g.hinge_particle[k].data() + begin;
-    x[k] = gather(in.packed->position.data(), index), v[k] = gather(in.packed->velocity.data(), index);
-  }
+  Vec4Lanes x[4];
+  for (std::size_t k = 0; k < 4; ++k) x[k] = gather(in.packed->position.data(), g.hinge_particle[k].data() + begin);
   const Vec3Lanes &x0 = x[0].vector, &x1 = x[1].vector, &x2 = x[2].vector, &x3 = x[3].vector;
   const Vec3Lanes e = x1 - x0;
   const Vec3Lanes na = cross(e, x2 - x0), nb = cross(x3 - x0, e);
@@ -37,7 +34,7 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
   Lanes yielding{}, speed{};
   for (std::size_t k = 0; k < 4; ++k) {
     yielding += x[k].w * dot(gradient[k], gradient[k]);
-    speed += dot(gradient[k], v[k].vector);
+    speed += dot(gradient[k], gather(in.packed->velocity.data(), g.hinge_particle[k].data() + begin).vector);
   }
   const LaneMask bends = has_extent & (yielding > 0.0f);
   const Lanes yields = bends ? yielding : one, here = bends ? one : Lanes{};
