@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "components/column.h"
+#include "components/lanes.h"
 
 namespace pleat {
 
@@ -17,7 +17,7 @@ struct ContactRow {
   float offset;         // d, m
   Vec3 body_step;       // motion of the touched point of the body over the substep, m
   float friction;       // Coulomb coefficient of the pair
-  float inverse_mass;   // 1/kg, sum of w_i b_i^2, or more near pins: how the point yields
+  float share[4];       // of a shift of the point, each particle's: w_k b_k / (sum of w b^2), or less near pins
   float push;           // m, total distance pushed in this substep's sweeps
   float rubbed;         // m, what friction has taken back of sliding in this substep
 
@@ -32,11 +32,22 @@ inline Vec3 contact_point(const ContactRow& row, ConstVec3View x) {
   return point;
 }
 
-/// Moves the row's point by `shift`, each particle by its share: x_k += w_k b_k / (sum of w b^2) shift.
-inline void shift_contact(const ContactRow& row, const Vec3& shift, const float* inverse_mass, Vec3View x) {
+/// The same of a packed column, the fourth number of which means nothing here.
+inline Vec3 contact_point(const ContactRow& row, const Vec4* x) {
+  Four point = load_four(x[row.particle[0]]) * row.weight[0];
+  for (std::uint32_t k = 1; k < row.count; ++k) point += load_four(x[row.particle[k]]) * row.weight[k];
+  return {point[0], point[1], point[2]};
+}
+
+/// Moves the row's point by `shift`, each particle by its share.
+inline void shift_contact(const ContactRow& row, const Vec3& shift, Vec3View x) {
+  for (std::uint32_t k = 0; k < row.count; ++k) x.add(row.particle[k], shift * row.share[k]);
+}
+inline void shift_contact(const ContactRow& row, const Vec3& shift, Vec4* x) {
+  const Four four{shift.x, shift.y, shift.z, 0.0f};
   for (std::uint32_t k = 0; k < row.count; ++k) {
-    const std::uint32_t i = row.particle[k];
-    x.add(i, shift * (inverse_mass[i] * row.weight[k] / row.inverse_mass));
+    Vec4& at = x[row.particle[k]];
+    store(load_four(at) + four * row.share[k], at);
   }
 }
 

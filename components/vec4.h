@@ -10,6 +10,8 @@ struct alignas(16) Vec4 {
   float x, y, z, w;
 };
 
+constexpr Vec3 vector_of(const Vec4& a) { return {a.x, a.y, a.z}; }
+
 /// Of as many particles as one cloth has, padded, and two places more for empty slots of edges (garment.h): scratch of
 /// what works on edges and hinges.
 struct Vec4Columns {

@@ -111,6 +111,8 @@ const char* phase_name(Phase phase) {
       return "contact";
     case Phase::kSweep:
       return "sweep";
+    case Phase::kFriction:
+      return "friction";
     case Phase::kSubstepEnd:
       return "substep end";
     case Phase::kCheck:

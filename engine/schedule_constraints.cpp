@@ -43,12 +43,10 @@ float relaxation_of(const ClothTick& t) {
 
 void limit_stretch(ClothTick& t) {
   run(StretchConstraint{.garment = &t.garment,
-                        .inverse_mass = t.inverse_mass,
                         .limit = t.settings.stretch_limit,
                         .relaxation = relaxation_of(t),
                         .way = t.worker.edge_way.view(),
-                        .position = t.position,
-                        .packed = &t.worker.packed},
+                        .position = &t.worker.packed.position},
       t.worker.stats);
 }
 
@@ -64,9 +62,8 @@ const char* with_stretch_limit_and_colliders(const World& w, const ClothRecord& 
 
 void respond(ClothTick& t) {
   run(CollisionResponse{.contacts = contacts_of(t),
-                        .inverse_mass = t.inverse_mass,
                         .face_response = static_cast<FaceResponse>(t.settings.face_response),
-                        .position = t.position},
+                        .position = t.worker.packed.position.data()},
       t.worker.stats);
 }
 #endif
@@ -270,29 +267,29 @@ constexpr Row kRows[] = {
                                                       : kNeeded;
      },
      [](ClothTick& t) {
-       run(TetherConstraint{.garment = &t.garment, .limit = t.settings.stretch_limit, .position = t.position});
+       run(TetherConstraint{
+           .garment = &t.garment, .limit = t.settings.stretch_limit, .position = t.worker.packed.position.data()});
      }},
 
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kSweep, "collision_response", with_contacts, respond},
-    {Phase::kSubstepEnd, "contact_friction", with_contacts,
+    {Phase::kFriction, "contact_friction", with_contacts,
      [](ClothTick& t) {
        run(ContactFriction{
-           .contacts = contacts_of(t), .previous = t.previous, .inverse_mass = t.inverse_mass, .position = t.position});
+           .contacts = contacts_of(t), .previous = t.previous, .position = t.worker.packed.position.data()});
      }},
     // Rows of bodies that pinch the cloth push against each other in every sweep; friction takes the sum for pressure
     // and undoes what the strain limit has pulled. So the limit comes once more, and contact still has the last word.
-    {Phase::kSubstepEnd, "stretch_after_friction", with_stretch_limit_and_colliders, limit_stretch},
+    {Phase::kFriction, "stretch_after_friction", with_stretch_limit_and_colliders, limit_stretch},
     // What the limit has pulled must not creep, nor a fold that hangs on it snap; what is stretched may slide.
-    {Phase::kSubstepEnd, "contact_stick", with_contacts,
+    {Phase::kFriction, "contact_stick", with_contacts,
      [](ClothTick& t) {
        run(ContactFriction{.contacts = contacts_of(t),
                            .previous = t.previous,
-                           .inverse_mass = t.inverse_mass,
                            .longest = kCreepSpeed * t.dt,
-                           .position = t.position});
+                           .position = t.worker.packed.position.data()});
      }},
-    {Phase::kSubstepEnd, "collision_last_word", with_contacts, respond},
+    {Phase::kFriction, "collision_last_word", with_contacts, respond},
 #endif
 
     {Phase::kSubstepEnd, "velocity_update", always,
@@ -306,10 +303,7 @@ constexpr Row kRows[] = {
      }},
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kSubstepEnd, "contact_velocity", with_contacts,
-     [](ClothTick& t) {
-       run(ContactVelocity{
-           .contacts = contacts_of(t), .inverse_mass = t.inverse_mass, .dt = t.dt, .velocity = t.velocity});
-     }},
+     [](ClothTick& t) { run(ContactVelocity{.contacts = contacts_of(t), .dt = t.dt, .velocity = t.velocity}); }},
 #endif
     {Phase::kSubstepEnd, "finite_guard", always,
      [](ClothTick& t) {

@@ -16,6 +16,7 @@ enum class Phase : std::uint32_t {
   kStage,
   kContact,
   kSweep,
+  kFriction,
   kSubstepEnd,
   kCheck,
   kFrameEnd

@@ -10,8 +10,7 @@ std::uint64_t& count_of(const ContactRow& row, Stats& stats) {
 }  // namespace
 
 bool CollisionResponse::validate() const {
-  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && inverse_mass != nullptr &&
-         position.x != nullptr;
+  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && position != nullptr;
 }
 
 void CollisionResponse::run(Stats& stats) const {
@@ -22,13 +21,12 @@ void CollisionResponse::run(Stats& stats) const {
     if (row.push == 0.0f) ++count_of(row, stats);
     row.push += depth;
     if (face_response == FaceResponse::kWeighted || row.with_itself()) {
-      shift_contact(row, row.normal * depth, inverse_mass, position);
+      shift_contact(row, row.normal * depth, position);
       continue;
     }
-    for (std::uint32_t k = 0; k < row.count; ++k) {
-      const bool moves = row.weight[k] > 0.0f && inverse_mass[row.particle[k]] > 0.0f;
-      if (moves) position.add(row.particle[k], row.normal * depth);
-    }
+    ContactRow whole = row;
+    for (float& share : whole.share) share = share > 0.0f ? 1.0f : 0.0f;
+    shift_contact(whole, row.normal * depth, position);
   }
 }
 

@@ -15,15 +15,13 @@ enum class FaceResponse : std::uint32_t { kWeighted = 0, kWhole = 1 };
 ///   whole:    x_i += C n for all corners alike (M. Oshita, A. Makinouchi, 2001, figure 6d); pinned ones stay, and
 ///             rows of the cloth against itself stay weighted.
 /// Normals, weights and planes are fixed, so passes may be repeated and mixed with the strain limit's.
-/// Reads:  inverse_mass (P) 1/kg
-/// Writes: position (P) m; push of the rows; stats.particle_, face_ and self_contacts: rows that push for the
+/// Writes: position (P) m, packed; push of the rows; stats.particle_, face_ and self_contacts: rows that push for the
 ///         first time
 /// Cost:   O(rows), no allocation. Errors: none.
 struct CollisionResponse {
   ContactList contacts;
-  const float* inverse_mass = nullptr;
   FaceResponse face_response = FaceResponse::kWeighted;
-  Vec3View position;
+  Vec4* position = nullptr;
 
   bool validate() const;
   void run(Stats& stats) const;

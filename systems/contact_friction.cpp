@@ -6,7 +6,7 @@ namespace pleat {
 
 bool ContactFriction::validate() const {
   return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && previous.x != nullptr &&
-         inverse_mass != nullptr && longest >= 0.0f && position.x != nullptr;
+         longest >= 0.0f && position != nullptr;
 }
 
 void ContactFriction::run() const {
@@ -19,14 +19,14 @@ void ContactFriction::run() const {
     const float distance = length(slid);
     if (distance < 1e-12f || distance > longest) continue;
     const float share = std::min(1.0f, most / distance);
-    shift_contact(row, slid * -share, inverse_mass, position);
+    shift_contact(row, slid * -share, position);
     row.rubbed += share * distance;
   }
 }
 
 bool ContactVelocity::validate() const {
-  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && inverse_mass != nullptr &&
-         dt > 0.0f && velocity.x != nullptr;
+  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && dt > 0.0f &&
+         velocity.x != nullptr;
 }
 
 void ContactVelocity::run() const {
@@ -34,7 +34,7 @@ void ContactVelocity::run() const {
     const ContactRow& row = contacts.rows[c];
     if (row.push == 0.0f) continue;
     const float leaving = dot(row.normal, contact_point(row, velocity) - row.body_step * (1.0f / dt));
-    if (leaving > 0.0f) shift_contact(row, row.normal * -leaving, inverse_mass, velocity);
+    if (leaving > 0.0f) shift_contact(row, row.normal * -leaving, velocity);
   }
 }
 

@@ -11,27 +11,25 @@ namespace pleat {
 /// the body since the substep began, up to friction * push is taken back, push being how far the row has pushed.
 ///   x_i -= min(1, mu push / |r|) w_i b_i / (sum of w b^2) r
 /// Run again, it takes back what is left of friction * push, and only where r is `longest` or less.
-/// Reads:  contacts; previous (P) m, when the substep began; inverse_mass (P) 1/kg
-/// Writes: position (P) m; rubbed of each row
+/// Reads:  contacts; previous (P) m, when the substep began
+/// Writes: position (P) m, packed; rubbed of each row
 /// Cost:   O(rows), no allocation. Errors: none.
 /// Runs after the sweeps and before a last CollisionResponse, since it may move a point against another row.
 struct ContactFriction {
   ContactList contacts;
   ConstVec3View previous;
-  const float* inverse_mass = nullptr;
   float longest = std::numeric_limits<float>::infinity();  // slip, m
-  Vec3View position;
+  Vec4* position = nullptr;
 
   bool validate() const;
   void run() const;
 };
 
 /// Contacts do not bounce: where a row has pushed, the touching point's velocity away from the body is taken out.
-/// Reads:  contacts; inverse_mass (P) 1/kg.  Writes: velocity (P) m/s.  Cost: O(rows).  Errors: none.
+/// Reads:  contacts.  Writes: velocity (P) m/s.  Cost: O(rows).  Errors: none.
 /// Runs after the velocities have been made to agree with the positions.
 struct ContactVelocity {
   ContactList contacts;
-  const float* inverse_mass = nullptr;
   float dt = 0.0f;  // s, of the substep
   Vec3View velocity;
 

@@ -50,24 +50,27 @@ struct ContactRowMaker {
          .offset = dot(normal, surface) + distance,
          .body_step = body_step,
          .friction = friction * body_friction,
-         .inverse_mass = 0.0f,
+         .share = {},
          .push = 0.0f,
          .rubbed = 0.0f},
         stats, relaxation);
   }
 
-  /// Fills in inverse_mass, and brings offset down to what the substep may undo.
+  /// Fills in the shares, and brings offset down to what the substep may undo.
   void add(ContactRow row, Stats& stats, float relaxation = 1.0f) const {
     Vec3 carried = row.body_step;
-    float lightest = 0.0f;
+    float lightest = 0.0f, yielding = 0.0f;  // 1/kg
     for (std::uint32_t k = 0; k < row.count; ++k) {
       const float w = inverse_mass[row.particle[k]], b = row.weight[k];
       carried += previous[row.particle[k]] * b;
-      row.inverse_mass += w * b * b;
+      yielding += w * b * b;
       if (b != 0.0f) lightest = std::max(lightest, w);
     }
-    if (!(row.inverse_mass > 0.0f)) return;
-    row.inverse_mass = std::max(row.inverse_mass, kLeastYield * lightest) / relaxation;
+    if (!(yielding > 0.0f)) return;
+    yielding = std::max(yielding, kLeastYield * lightest) / relaxation;
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+      row.share[k] = inverse_mass[row.particle[k]] * row.weight[k] / yielding;
+    }
     row.offset = std::min(row.offset, dot(row.normal, carried) + kRecoverySpeed * dt);
     if (!contacts.add(row)) ++stats.contacts_dropped;
   }

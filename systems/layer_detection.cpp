@@ -56,7 +56,7 @@ void LayerDetection::run(Stats& stats) const {
                    .offset = pair->distance,
                    .body_step = {},
                    .friction = friction,
-                   .inverse_mass = 0.0f,
+                   .share = {},
                    .push = 0.0f,
                    .rubbed = 0.0f};
     for (int k = 0; k < 4; ++k) {

@@ -31,7 +31,7 @@ void SelfDetection::run(Stats& stats) const {
               .offset = pair->distance,
               .body_step = {},
               .friction = friction,
-              .inverse_mass = 0.0f,
+              .share = {},
               .push = 0.0f,
               .rubbed = 0.0f},
              stats);

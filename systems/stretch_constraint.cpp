@@ -12,7 +12,7 @@ constexpr float kShortest2 = 1e-18f;  // m2, of an edge that has a direction
 PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in, VectorSet set) {
   const float most = 1.0f + in.limit, relaxation = in.relaxation;
   std::uint32_t skipped = 0;
-  for_each_edge(*in.garment, in.way, in.packed->position, set, [&](const auto& edge) {
+  for_each_edge(*in.garment, in.way, *in.position, set, [&](const auto& edge) {
     const auto a = edge.end(0), b = edge.end(1);
     const auto d = b.vector - a.vector;
     const auto l2 = dot(d, d), longest = most * edge.rest_length(), weight = a.w + b.w;
@@ -32,16 +32,12 @@ PLEAT_KERNEL std::uint32_t limit_edges(const StretchConstraint& in, VectorSet se
 }  // namespace
 
 bool StretchConstraint::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && way.x != nullptr && position.x != nullptr && limit >= 0.0f &&
-         relaxation > 0.0f && relaxation < 2.0f && packed != nullptr && packed->holds(garment->particle_count);
+  return garment != nullptr && way.x != nullptr && limit >= 0.0f && relaxation > 0.0f && relaxation < 2.0f &&
+         position != nullptr && position->size() >= padded(garment->particle_count) + 2;
 }
 
 void StretchConstraint::run(Stats& stats, VectorSet set) const {
-  run_wide(set, [&] {
-    pack(position, inverse_mass, garment->particle_count, packed->position.data());
-    stats.edges_skipped += limit_edges(*this, set);
-    unpack(packed->position.data(), garment->particle_count, position);
-  });
+  run_wide(set, [&] { stats.edges_skipped += limit_edges(*this, set); });
 }
 
 }  // namespace pleat

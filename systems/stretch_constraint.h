@@ -16,17 +16,15 @@ namespace pleat {
 /// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are weighted
 /// by inverse mass, so momentum is kept except at pins.
-/// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
-/// Writes: position (P) m; packed, scratch; stats.edges_skipped
-/// Cost:   O(P + S), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
+/// Reads:  garment slots; way (S) m: edge_ways.h; inverse mass with the positions
+/// Writes: position (P) m, packed; stats.edges_skipped
+/// Cost:   O(S), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
   const Garment* garment = nullptr;
-  const float* inverse_mass = nullptr;
   float limit = 0.0f;       // fraction of the rest length
   float relaxation = 1.0f;  // r, below 2
   ConstVec3View way;
-  Vec3View position;
-  Vec4Columns* packed = nullptr;  // holds (P)
+  Column<Vec4>* position = nullptr;  // and two places more: garment.h
 
   bool validate() const;
   void run(Stats& stats, VectorSet set = widest_vectors()) const;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "components/garment.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -12,12 +13,12 @@ namespace pleat {
 ///   C = |x_p - x_i| - (1 + limit) way > 0:   x_i += C u,   u = (x_p - x_i) / |x_p - x_i|
 /// The edges ask for the same, but a pull through many of them takes many passes. The pin takes the momentum.
 /// Reads:  garment tethers
-/// Writes: position (P) m
+/// Writes: position (P) m, packed
 /// Cost:   O(T), no allocation. Errors: none.
 struct TetherConstraint {
   const Garment* garment = nullptr;
   float limit = 0.0f;  // fraction of the way
-  Vec3View position;
+  Vec4* position = nullptr;
 
   bool validate() const;
   void run() const;

@@ -26,12 +26,13 @@ struct Scene {
                           .offset = 0.01f,
                           .body_step = {},
                           .friction = 0.0f,
-                          .inverse_mass = yields,
+                          .share = {cloth.inverse_mass[0] * a / yields, cloth.inverse_mass[1] * b / yields,
+                                    cloth.inverse_mass[2] * c / yields},
                           .push = 0.0f,
                           .rubbed = 0.0f});
   }
-  CollisionResponse system(FaceResponse response = FaceResponse::kWeighted) {
-    return {cloth.contacts(), cloth.inverse_mass.data(), response, cloth.position.view()};
+  void run(FaceResponse response = FaceResponse::kWeighted) {
+    cloth.run(CollisionResponse{.contacts = cloth.contacts(), .face_response = response}, stats);
   }
   float point_height(std::uint32_t row) {
     return contact_point(cloth.rows[row], ConstVec3View(cloth.position.view())).y;
@@ -42,7 +43,7 @@ TEST(CollisionResponse, WeightedPutsThePointOnThePlane) {
   Scene s;
   s.cloth.inverse_mass[0] = 10.0f;  // 100 times as heavy as the others
   s.add(0.5f, 0.3f, 0.2f);
-  s.system().run(s.stats);
+  s.run();
   EXPECT_NEAR(s.point_height(0), 0.01f, 1e-7f);
   EXPECT_NEAR(s.cloth.x(1).y / s.cloth.x(2).y, 1.5f, 1e-4f);
   EXPECT_NEAR(s.cloth.x(1).y / s.cloth.x(0).y, 1000.0f * 0.3f / (10.0f * 0.5f), 1e-2f);
@@ -53,7 +54,7 @@ TEST(CollisionResponse, PinnedCornersStay) {
   for (const FaceResponse response : {FaceResponse::kWeighted, FaceResponse::kWhole}) {
     Scene s({0});
     s.add(0.4f, 0.3f, 0.3f);
-    for (int i = 0; i < 60; ++i) s.system(response).run(s.stats);
+    for (int i = 0; i < 60; ++i) s.run(response);
     EXPECT_EQ(s.cloth.x(0), Vec3{});
     EXPECT_NEAR(s.point_height(0), 0.01f, 1e-6f);
   }
@@ -62,11 +63,11 @@ TEST(CollisionResponse, PinnedCornersStay) {
 TEST(CollisionResponse, WholeMovesTheCornersThatTouch) {
   Scene s;
   s.add(0.5f, 0.3f, 0.2f);
-  s.system(FaceResponse::kWhole).run(s.stats);
+  s.run(FaceResponse::kWhole);
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_NEAR(s.cloth.x(i).y, 0.01f, 1e-7f);
   Scene particle;
   particle.add(1, 0, 0, true);
-  particle.system(FaceResponse::kWhole).run(particle.stats);
+  particle.run(FaceResponse::kWhole);
   EXPECT_EQ(particle.cloth.x(1).y, 0.0f);
 }
 
@@ -76,7 +77,7 @@ TEST(CollisionResponse, CountsEachRowOnceAndLeavesSatisfiedOnes) {
   s.add(0.5f, 0.5f, 0);
   s.add(0, 0, 1, true);
   s.cloth.rows[2].offset = -0.01f;
-  for (int i = 0; i < 5; ++i) s.system().run(s.stats);
+  for (int i = 0; i < 5; ++i) s.run();
   EXPECT_EQ(s.stats.particle_contacts, 1u);
   EXPECT_EQ(s.stats.face_contacts, 1u);
   EXPECT_EQ(s.cloth.x(2).y, 0.0f);
@@ -85,15 +86,13 @@ TEST(CollisionResponse, CountsEachRowOnceAndLeavesSatisfiedOnes) {
 
 TEST(CollisionResponse, ValidateRefusesBrokenFields) {
   Scene s;
-  EXPECT_TRUE(s.system().validate());
-  CollisionResponse bad = s.system();
+  Vec4 place{};
+  const CollisionResponse good{.contacts = s.cloth.contacts(), .position = &place};
+  EXPECT_TRUE(good.validate());
+  CollisionResponse bad = good;
   bad.contacts.count = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = s.system();
-  bad.inverse_mass = nullptr;
-  EXPECT_FALSE(bad.validate());
-  bad = s.system();
-  bad.position = {};
+  bad = good, bad.position = nullptr;
   EXPECT_FALSE(bad.validate());
 }
 

@@ -11,10 +11,21 @@
 #include "components/colliders.h"
 #include "components/contacts.h"
 #include "components/garment.h"
+#include "components/lanes.h"
 
 namespace pleat::test {
 
 inline std::pmr::memory_resource* memory() { return std::pmr::new_delete_resource(); }
+
+/// run(positions side by side), as sweeps have them.
+template <class Run>
+void with_packed(Vec3View position, const Column<float>& inverse_mass, const Run& run) {
+  Column<Vec4> packed(memory());
+  packed.resize(padded(inverse_mass.size()) + 2);
+  pack(position, inverse_mass.data(), inverse_mass.size(), packed.data());
+  run(packed);
+  unpack(packed.data(), inverse_mass.size(), position);
+}
 
 /// A cloth with everything that contact reads and writes. Particles weigh 1 g and start at rest where they were built.
 struct ContactCloth {
@@ -42,6 +53,14 @@ struct ContactCloth {
     previous.view().set(i, before);
   }
   Vec3 x(std::uint32_t i) const { return position.view()[i]; }
+  /// system.run(...) on the packed positions.
+  template <class System, class... Counters>
+  void run(System system, Counters&... counters) {
+    with_packed(position.view(), inverse_mass, [&](Column<Vec4>& packed) {
+      system.position = packed.data();
+      system.run(counters...);
+    });
+  }
   ContactList contacts() { return {rows.data(), static_cast<std::uint32_t>(rows.size()), &row_count}; }
 };
 

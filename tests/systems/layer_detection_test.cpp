@@ -67,10 +67,7 @@ struct Layered {
                                    .contacts = own.contacts()};
     ASSERT_TRUE(detection.validate());
     detection.run(stats);
-    for (int sweep = 0; sweep < 10; ++sweep) {
-      CollisionResponse{own.contacts(), own.inverse_mass.data(), FaceResponse::kWeighted, own.position.view()}.run(
-          stats);
-    }
+    for (int sweep = 0; sweep < 10; ++sweep) own.run(CollisionResponse{.contacts = own.contacts()}, stats);
   }
 };
 

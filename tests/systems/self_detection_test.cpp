@@ -56,9 +56,7 @@ struct SelfCloth : ContactCloth {
     ASSERT_TRUE(detection.validate());
     detection.run(stats);
   }
-  void respond() {
-    CollisionResponse{contacts(), inverse_mass.data(), FaceResponse::kWeighted, position.view()}.run(stats);
-  }
+  void respond() { run(CollisionResponse{.contacts = contacts()}, stats); }
   /// A substep of free flight and contact.
   void substep() {
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
@@ -70,7 +68,7 @@ struct SelfCloth : ContactCloth {
     for (int sweep = 0; sweep < 4; ++sweep) respond();
     VelocityUpdate{garment.particle_count, position.view(), predicted.view(), inverse_mass.data(), kDt, velocity.view()}
         .run();
-    ContactVelocity{contacts(), inverse_mass.data(), kDt, velocity.view()}.run();
+    ContactVelocity{contacts(), kDt, velocity.view()}.run();
   }
   Vec3 sum(ConstVec3View of) const {
     Vec3 total;

@@ -10,6 +10,7 @@
 
 #include "components/garment.h"
 #include "components/hinge_scratch.h"
+#include "components/lanes.h"
 #include "components/particles.h"
 #include "components/shapes.h"
 #include "components/vec4.h"
@@ -61,6 +62,13 @@ struct Sheet {
   ConstVec3View ways() {
     EdgeWays{&garment, previous, &packed, edge_way.view()}.run();
     return edge_way.view();
+  }
+  /// system.run(...) on the packed positions.
+  template <class System, class... Arguments>
+  void run_packed(const System& system, Arguments&&... arguments) {
+    pack(position, inverse_mass, count, packed.position.data());
+    system.run(arguments...);
+    unpack(packed.position.data(), count, position);
   }
   void clear_force() {
     for (std::uint32_t i = 0; i < count; ++i) force.set(i, {});
