@@ -1,32 +1,31 @@
 #include "systems/capsule_candidates.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "components/wide.h"
+#include "systems/box.h"
 #include "systems/capsule_lanes.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
 namespace {
 
-/// The furthest that particles and cores have come away from where they were, beside the particles' mean motion, m.
-float relative_motion(const CapsuleCandidates& in) {
+/// The furthest that a particle and a core may have come nearer to each other than they were, m. Between its ends a
+/// core has moved by no more than they have.
+PLEAT_KERNEL float relative_motion(const CapsuleCandidates& in) {
   const ConstVec3View anchor = in.candidates->anchor.view();
-  const std::uint32_t count = in.garment->particle_count;
-  Vec3 sum;
-  for (std::uint32_t i = 0; i < count; ++i) sum += in.position[i] - anchor[i];
-  const Vec3 mean = sum * (1.0f / static_cast<float>(count));
-  const float cloth2 = largest(count, [&](std::size_t i) {
-    const Vec3Lanes d = load(in.position, i) - load(anchor, i) - all(mean);
-    return dot(d, d);
-  });
-  float cores2 = 0.0f;
+  float most2 = 0.0f;
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
-    const Vec3 a = now.a - then.a - mean, b = now.b - then.b - mean;
-    cores2 = std::max({cores2, dot(a, a), dot(b, b)});
+    const Vec3Lanes of_a = all(now.a - then.a), of_b = all(now.b - then.b);
+    most2 = std::max(most2, largest(in.garment->particle_count, [&](std::size_t i) {
+                       const Vec3Lanes motion = load(in.position, i) - load(anchor, i), a = motion - of_a,
+                                       b = motion - of_b;
+                       return max(dot(a, a), dot(b, b));
+                     }));
   }
-  return std::sqrt(cloth2) + std::sqrt(cores2);
+  return std::sqrt(most2);
 }
 
 bool same_capsules(const CapsuleCandidates& in) {
@@ -34,6 +33,13 @@ bool same_capsules(const CapsuleCandidates& in) {
   return in.capsule_count == in.candidates->sought_count &&
          std::equal(in.capsules, in.capsules + in.capsule_count, in.candidates->sought.begin(), same);
 }
+
+/// Of a word's features, not to be zeroed before they are made.
+template <class Features>
+union Room {
+  Features places[64 / kLanes];
+  Room() {}
+};
 
 /// Marks one kind of features, which begin at `word` of each capsule's set, a word at a time. Columns' padding belongs
 /// to particle 0.
@@ -45,8 +51,9 @@ PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::
   for (std::uint32_t begin = 0; begin < count; begin += kBits) {
     const std::uint32_t rest = std::min(count - begin, kBits);
     const std::uint64_t used = ~std::uint64_t{0} >> (kBits - rest);
-    Features features[kBits / kLanes];
-    for (std::uint32_t k = 0; k < rest; k += kLanes) features[k / kLanes] = make(begin + k);
+    Room<Features> room;
+    Features* features = room.places;
+    for (std::uint32_t k = 0; k < rest; k += kLanes) std::construct_at(features + k / kLanes, make(begin + k));
     std::uint64_t* at = in.candidates->near.data() + word + begin / kBits;
     for (std::uint32_t c = 0; c < in.capsule_count; ++c, at += words) {
       const Core core(in.capsules[c], widest_radius(in.capsules[c]) + in.thickness + in.candidates->margin);
@@ -81,16 +88,18 @@ bool CapsuleCandidates::validate() const {
 }
 
 void CapsuleCandidates::run() const {
-  CapsuleCandidateColumns& out = *candidates;
-  const std::uint32_t count = garment->particle_count;
-  const float margin = contact_margin(position, previous, count);
-  if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - kLaneRounding) return;
+  run_wide(widest_vectors(), [this] {
+    CapsuleCandidateColumns& out = *candidates;
+    const std::uint32_t count = garment->particle_count;
+    const float margin = contact_margin(position, previous, count);
+    if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - kLaneRounding) return;
 
-  for (std::uint32_t i = 0; i < count; ++i) out.anchor.view().set(i, position[i]);
-  std::copy_n(capsules, capsule_count, out.sought.begin());
-  out.sought_count = capsule_count;
-  out.margin = margin + kSkin + kLaneRounding;
-  run_wide(widest_vectors(), [this] { mark_all(*this); });
+    for (std::uint32_t i = 0; i < count; i += kLanes) store(load(position, i), out.anchor.view(), i);
+    std::copy_n(capsules, capsule_count, out.sought.begin());
+    out.sought_count = capsule_count;
+    out.margin = margin + kSkin + kLaneRounding;
+    mark_all(*this);
+  });
 }
 
 }  // namespace pleat

@@ -8,11 +8,11 @@ namespace pleat {
 
 /// Marks, for each capsule, the features of the cloth nearer than thickness + contact_margin + kSkin to its surface, as
 /// CapsuleDetection looks at them; a face only counts near an end of the core. Marks of the same tick are left as they
-/// are as long as they lack nothing: while the cloth's mean motion since they were made takes every particle and every
-/// core along to within the skin, less what contact_margin has grown by.
+/// are as long as they lack nothing: while no particle has moved against any core by more than the skin, less what
+/// contact_margin has grown by.
 /// Reads:  garment edges, faces; position (predicted), previous (P) m; capsules, ascending by index
 /// Writes: candidates
-/// Cost:   O(P + capsules) where marks still hold, else O((P + E + F) capsules); no allocation.
+/// Cost:   O(P capsules) where marks still hold, else O((P + E + F) capsules); no allocation.
 /// Errors: none.
 struct CapsuleCandidates {
   const Garment* garment = nullptr;

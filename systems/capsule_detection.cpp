@@ -198,14 +198,14 @@ bool CapsuleDetection::validate() const {
 }
 
 void CapsuleDetection::run(Stats& stats) const {
-  for (std::uint32_t c = 0; c < capsule_count; ++c) {
-    if (c % kLanes == 0) blocks[c / kLanes] = CapsuleBlock{};
-    blocks[c / kLanes].put(c % kLanes, capsules[c]);
-  }
-  const float margin = contact_margin(position, previous, garment->particle_count);
-  const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
-  const std::uint64_t* near = candidates->near.data();
   run_wide(widest_vectors(), [&] {
+    for (std::uint32_t c = 0; c < capsule_count; ++c) {
+      if (c % kLanes == 0) blocks[c / kLanes] = CapsuleBlock{};
+      blocks[c / kLanes].put(c % kLanes, capsules[c]);
+    }
+    const float margin = contact_margin(position, previous, garment->particle_count);
+    const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
+    const std::uint64_t* near = candidates->near.data();
     for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
       CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
     }

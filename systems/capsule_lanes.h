@@ -18,9 +18,10 @@ inline constexpr float kLaneRounding = 1e-3f;
 struct Core {
   Vec3Lanes a, b, axis;
   Lanes axis2, inverse;  // m2, 1/m2 or zero
-  float reach2;          // m2
+  float reach, reach2;   // m, m2
 
-  PLEAT_KERNEL Core(const CapsulePose& c, float reach) : a(all(c.a)), b(all(c.b)), axis(b - a), reach2(reach * reach) {
+  PLEAT_KERNEL Core(const CapsulePose& c, float within)
+      : a(all(c.a)), b(all(c.b)), axis(b - a), reach(within), reach2(within * within) {
     const Vec3 along = c.b - c.a;
     const float along2 = dot(along, along);
     axis2 = all(along2), inverse = all(along2 > 0.0f ? 1.0f / along2 : 0.0f);
@@ -83,13 +84,17 @@ PLEAT_KERNEL LaneMask is_near(const Core& core, const EdgeLanes& edge) {
 /// Faces by their planes and, within those, the lines of their sides.
 struct FaceLanes {
   Vec3Lanes a, b, normal, past_ab, past_bc, past_ca;  // corners, m; unit, the last three out of the face
+  Vec3Lanes middle;
+  Lanes radius;  // m, of a ball about the middle that holds the face
 
-  FaceLanes() = default;
   PLEAT_KERNEL FaceLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j, const std::uint32_t* k)
       : a(gather(position, i)), b(gather(position, j)) {
     const Vec3Lanes c = gather(position, k);
     normal = unit(cross(b - a, c - a));
     past_ab = unit(cross(b - a, normal)), past_bc = unit(cross(c - b, normal)), past_ca = unit(cross(a - c, normal));
+    middle = (a + b + c) * (1.0f / 3.0f);
+    const Vec3Lanes from_a = middle - a, from_b = middle - b, from_c = middle - c;
+    radius = sqrt(max(max(dot(from_a, from_a), dot(from_b, from_b)), dot(from_c, from_c)));
   }
 
  private:
@@ -111,6 +116,9 @@ struct FaceDistance {
 
 /// Whether an end of the core may be near.
 PLEAT_KERNEL LaneMask is_near(const Core& core, const FaceLanes& face) {
+  const Vec3Lanes from_a = face.middle - core.a, from_b = face.middle - core.b;
+  const Lanes reach = face.radius + core.reach;
+  if (!any(min(dot(from_a, from_a), dot(from_b, from_b)) < reach * reach)) return LaneMask{};
   const FaceDistance a(face, core.a), b(face, core.b);
   return (a.height2 + a.beside2 < core.reach2) | (b.height2 + b.beside2 < core.reach2);
 }
