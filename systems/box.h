@@ -36,18 +36,18 @@ struct Box {
 
 /// The box around points [0, count), at least eight, which the last eight overlap with those before.
 PLEAT_KERNEL Box box_of_lanes(ConstVec3View points, std::size_t count) {
-  Box box;
-  Vec3Lanes low = all(box.low), high = all(box.high);
+  Box lows, highs;
+  Vec3Lanes low = all(lows.low), high = all(highs.high);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Vec3Lanes p = load(points, std::min(i, count - kLanes));
     low = {min(p.x, low.x), min(p.y, low.y), min(p.z, low.z)};
     high = {max(p.x, high.x), max(p.y, high.y), max(p.z, high.z)};
   }
   for (std::size_t k = 0; k < kLanes; ++k) {
-    box.include({low.x[k], low.y[k], low.z[k]});
-    box.include({high.x[k], high.y[k], high.z[k]});
+    lows.include({low.x[k], low.y[k], low.z[k]});
+    highs.include({high.x[k], high.y[k], high.z[k]});
   }
-  return box;
+  return {lows.low, highs.high};
 }
 
 /// The box around points [0, count).
