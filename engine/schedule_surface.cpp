@@ -114,7 +114,7 @@ constexpr Row kRows[] = {
                         .drawn_position = t.drawn_position});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kFrameEnd, "surface_footprint", with_colliders,
+    {Phase::kFrameEnd, "surface_footprint", with_meshes,
      [](ClothTick& t) {
        run(Tessellation{.mode = SurfaceMode::kFlat,
                         .garment = &t.garment,
@@ -148,14 +148,13 @@ constexpr Row kRows[] = {
        World& w = t.world;
        run(SurfaceClearance{.garment = &t.garment,
                             .pattern = t.cloth.pattern(),
-                            .footprint = t.worker.footprint.view(),
+                            .position = t.position,
                             .capsules = t.worker.capsule_poses.data(),
                             .capsule_count = w.capsules.size() != 0 ? t.worker.capsule_pose_count : 0,
                             .half_spaces = w.planes.data(),
                             .half_space_count = w.planes.size(),
                             .t = t.t1,
                             .clearance = surface_clearance(t),
-                            .moved = t.worker.moved.data(),
                             .planes = clearance_planes(t),
                             .drawn_position = t.drawn_position});
      }},

@@ -68,8 +68,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
     at_least(worker.mesh_candidates.drift, g.particle_count);
   }
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
-    at_least(worker.footprint, pattern->vertex_count);
-    at_least(worker.moved, pattern->vertex_count);
+    if (!world.meshes.empty()) at_least(worker.footprint, pattern->vertex_count);
     at_least(worker.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
     for (const MeshRecord& body : world.meshes) at_least(worker.near_triangles, body.mesh.triangles.size() / 3);
   }

@@ -28,9 +28,8 @@ struct Worker {
   MeshCandidateColumns mesh_candidates;
   NearScratch near_scratch;  // empty unless cloth touches cloth
   FoldChoices fold_choices;  // empty unless a cloth folds
-  Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles
+  Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles; empty unless there are meshes
   Column<Vec4> normal_sum;   // of normals and of shaded normals; empty unless a cloth is drawn
-  Column<float> moved;       // m, from there to where they are drawn
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
@@ -53,7 +52,6 @@ struct Worker {
         fold_choices(m),
         footprint(m),
         normal_sum(m),
-        moved(m),
         clearance_planes(m),
         near_triangles(m),
         fold_scratch(m),

@@ -9,129 +9,208 @@
 namespace pleat {
 namespace {
 
+/// Of a drawn vertex, on the flat triangles.
+PLEAT_KERNEL Vec3Lanes place_on(const Vec3Lanes (&corner)[3], const std::array<float, 3>& weight) {
+  return corner[0] * weight[0] + corner[1] * weight[1] + corner[2] * weight[2];
+}
+
 /// Eight faces, and how their drawn vertices are moved from the footprints.
 struct FaceGroup {
-  Vec3Lanes corner[3], center;  // m, of the coarse triangle
-  Lanes size, bulge;            // m, from the center to the furthest corner; the largest motion
+  Vec3Lanes corner[3], center, area;  // m, of the coarse triangle; twice its area along its normal, m2
+  Lanes size, bulge;                  // m, from the center to the furthest corner; the largest motion
 
-  PLEAT_KERNEL FaceGroup(const SurfaceClearance& in, std::uint32_t begin, std::uint32_t count) : bulge{} {
-    const std::uint32_t vertices = in.pattern->vertices_per_face;
-    const std::uint32_t* drawn = in.pattern->face_vertices.data() + std::size_t{begin} * vertices;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-      std::uint32_t index[kLanes];
-      for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[std::size_t{std::min(k, count - 1)} * vertices + v];
-      if (v < 3) corner[v] = gather(in.footprint, index);
-      bulge = max(gather(in.moved, index), bulge);
+  PLEAT_KERNEL FaceGroup(const SurfaceClearance& in, std::uint32_t begin) {
+    const TessellationPattern& pattern = *in.pattern;
+    const std::uint32_t* drawn = pattern.drawn_of_faces(begin);
+    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = gather(in.position, drawn + k * kLanes);
+    Lanes bulge2{};
+    for (std::uint32_t v = 0; v < pattern.vertices_per_face; ++v) {
+      const Vec3Lanes motion =
+          gather(in.drawn_position, drawn + v * kLanes) - place_on(corner, pattern.face_weights[v]);
+      bulge2 = max(dot(motion, motion), bulge2);
     }
+    bulge = sqrt(bulge2);
     center = (corner[0] + corner[1] + corner[2]) * (1.0f / 3.0f);
     size = max(max(length(corner[0] - center), length(corner[1] - center)), length(corner[2] - center));
+    area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  }
+
+  /// Not where the coarse triangle is further from the core than the largest motion of a vertex and what is kept, as
+  /// either of two directions shows: that from the core's point nearest to the center, which has all of the core
+  /// behind it, and the triangle's normal.
+  PLEAT_KERNEL LaneMask may_touch(const Core& core, float kept) const {
+    const Vec3Lanes away = away_from(core, center);
+    const Lanes around = kept + size + bulge, distance2 = dot(away, away);
+    const LaneMask near = distance2 < around * around;
+    if (!any(near)) return near;
+    const Lanes far = kept + bulge + kLaneRounding, far2 = far * far;
+    const Vec3Lanes on_core = center - away;
+    const Lanes beyond =
+        min(min(dot(corner[0] - on_core, away), dot(corner[1] - on_core, away)), dot(corner[2] - on_core, away));
+    const Lanes a = dot(core.a - center, area), b = dot(core.b - center, area);
+    const LaneMask apart = (beyond > 0.0f) & (beyond * beyond >= far2 * distance2);
+    const LaneMask aside = (a * b > 0.0f) & (min(a * a, b * b) >= far2 * dot(area, area));
+    return near & ~(apart | aside);
   }
 };
 
-/// The drawn vertices of one face in the face's own numbering, and what a capsule makes of them.
-struct FaceVertices {
-  static constexpr std::uint32_t kRoom = (kMaxVerticesPerFace + kLanes - 1) / kLanes * kLanes;
-  const std::uint32_t* drawn;
-  std::uint32_t room;                     // of vertices, in whole lanes, whose rest repeats the first vertex
-  float longest_side2;                    // m2, of a footprint at most, squared
-  float bulge;                            // m, of the vertices, the largest motion
-  float x[kRoom], y[kRoom], z[kRoom];     // m, on the coarse triangle
-  float dx[kRoom], dy[kRoom], dz[kRoom];  // m, from there to where they are drawn
-  float moved[kRoom], distance2[kRoom], approach[kRoom];  // m, m2, m: the length of that; see measure
+constexpr std::size_t kMostTriangles = 4 * kMaxTessellationLevel * kMaxTessellationLevel;  // of a face
 
-  PLEAT_KERNEL FaceVertices(const SurfaceClearance& in, std::uint32_t f, float largest_motion)
-      : drawn(in.pattern->face_vertices.data() + std::size_t{f} * in.pattern->vertices_per_face),
-        room((in.pattern->vertices_per_face + kLanes - 1) / kLanes * kLanes),
-        bulge(largest_motion) {
-    const std::uint32_t count = in.pattern->vertices_per_face;
-    for (std::uint32_t i = 0; i < room; i += kLanes) {
-      std::uint32_t index[kLanes];
-      for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = drawn[i + k < count ? i + k : 0];
-      const Vec3Lanes place = gather(in.footprint, index);
-      store(place, {x, y, z}, i);
-      store(gather(in.drawn_position, index) - place, {dx, dy, dz}, i);
-      store(gather(in.moved, index), moved + i);
+/// Of each lane's capsule.
+struct CapsuleLanes {
+  Core core;
+  Lanes radius, taper, kept;  // m, of the ball about a; what the one about b has more; from the core by the footprints
+
+  PLEAT_KERNEL CapsuleLanes(const SurfaceClearance& in, const std::uint32_t (&index)[kLanes])
+      : core(in.capsules[index[0]], 0.0f) {
+    const auto of_each = [&](const auto& value) {
+      const CapsulePose* c = in.capsules;
+      return Lanes{value(c[index[0]]), value(c[index[1]]), value(c[index[2]]), value(c[index[3]]),
+                   value(c[index[4]]), value(c[index[5]]), value(c[index[6]]), value(c[index[7]])};
+    };
+    core.a.x = of_each([](const CapsulePose& c) { return c.a.x; });
+    core.a.y = of_each([](const CapsulePose& c) { return c.a.y; });
+    core.a.z = of_each([](const CapsulePose& c) { return c.a.z; });
+    core.b.x = of_each([](const CapsulePose& c) { return c.b.x; });
+    core.b.y = of_each([](const CapsulePose& c) { return c.b.y; });
+    core.b.z = of_each([](const CapsulePose& c) { return c.b.z; });
+    core.axis = core.b - core.a, core.axis2 = dot(core.axis, core.axis);
+    const LaneMask long_enough = core.axis2 > 0.0f;
+    core.inverse = long_enough ? 1.0f / (long_enough ? core.axis2 : all(1.0f)) : Lanes{};
+    radius = of_each([](const CapsulePose& c) { return c.radius; });
+    taper = of_each([](const CapsulePose& c) { return c.taper; });
+    kept = radius + max(taper, Lanes{}) + in.clearance;
+  }
+};
+
+/// Faces that may need planes against a capsule, a pair of the two in each lane.
+struct Pairs {
+  std::uint32_t face[kLanes], capsule[kLanes], count = 0;
+
+  PLEAT_KERNEL void add(std::uint32_t f, std::uint32_t k) { face[count] = f, capsule[count] = k, ++count; }
+  PLEAT_KERNEL void fill() {
+    for (std::uint32_t k = count; k < kLanes; ++k) face[k] = face[0], capsule[k] = capsule[0];
+  }
+};
+
+/// The drawn vertices of the faces of pairs, in the faces' own numbering, and what the capsules make of them.
+struct PairVertices {
+  static constexpr std::size_t kRoom = kMaxVerticesPerFace * kLanes;
+  float x[kRoom], y[kRoom], z[kRoom];                     // m, on the coarse triangle
+  float moved[kRoom], distance2[kRoom], approach[kRoom];  // m, from there to where they are drawn; m2, from the core;
+                                                          // m, how far the motion goes towards it
+  Lanes longest_side2, bulge;                             // m2, of a footprint at most, squared; m, the largest motion
+
+  PLEAT_KERNEL PairVertices(const SurfaceClearance& in, const Pairs& pairs, const Core& core) : bulge{} {
+    const std::uint32_t vertices = in.pattern->vertices_per_face;
+    const std::uint32_t* row[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      row[k] = in.pattern->face_vertices.data() + std::size_t{pairs.face[k]} * vertices;
     }
-    const Vec3 a = at(0), b = at(1), c = at(2);
+    const auto of_each = [&](ConstVec3View column, std::uint32_t v) {
+      const std::uint32_t index[kLanes] = {row[0][v], row[1][v], row[2][v], row[3][v],
+                                           row[4][v], row[5][v], row[6][v], row[7][v]};
+      return gather(column, index);
+    };
+    const Vec3Lanes corner[3] = {of_each(in.position, 0), of_each(in.position, 1), of_each(in.position, 2)};
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+      const Vec3Lanes place = place_on(corner, in.pattern->face_weights[v]);
+      const Vec3Lanes motion = of_each(in.drawn_position, v) - place;
+      const Lanes by = length(motion);
+      const Vec3Lanes away = away_from(core, place);
+      const Lanes d2 = dot(away, away);
+      store(place, {x, y, z}, v * kLanes), store(by, moved + v * kLanes), store(d2, distance2 + v * kLanes);
+      store(-dot(away, motion) / sqrt(d2), approach + v * kLanes);
+      bulge = max(by, bulge);
+    }
+    const Vec3Lanes &a = corner[0], &b = corner[1], &c = corner[2];
     // A footprint joins neighbours on the grid of the pattern; in the fan also the center to an edge's middle.
     const float share = in.pattern->level == 0 ? 1.0f / 3.0f : 1.0f / static_cast<float>(in.pattern->segments);
-    longest_side2 = share * share * std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+    longest_side2 = share * share * max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
   }
 
-  Vec3 at(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
+  PLEAT_KERNEL Vec3Lanes at(std::uint32_t v) const { return load({x, y, z}, v * kLanes); }
 
-  /// How far the places are from the core, squared, m2, and how far the motion goes towards it, m. Returns the least of
-  /// the first.
-  PLEAT_KERNEL float measure(const CapsulePose& c) {
-    const Core core(c, 0.0f);
-    Lanes least = all(std::numeric_limits<float>::max());
-    for (std::uint32_t i = 0; i < room; i += kLanes) {
-      const Vec3Lanes away = away_from(core, load({x, y, z}, i));
-      const Lanes d2 = dot(away, away);
-      store(d2, distance2 + i);
-      store(-dot(away, load({dx, dy, dz}, i)) / sqrt(d2), approach + i);
-      least = min(d2, least);
+  /// Where footprint t needs its plane, from below. A footprint of longest side s whose corners are at least d from the
+  /// core is D >= sqrt(d^2 - s^2/3) from it, for no point of it is further than s/sqrt(3) from all corners. Over the
+  /// footprint the direction away from the core turns by at most s/D, so a vertex that moves by m and approaches the
+  /// core by h, as seen from its own place, falls towards the core by at most h + m s/D.
+  PLEAT_KERNEL LaneMask may_fall_behind(const std::uint32_t* t, const Lanes& kept) const {
+    const auto of = [&](const float* column, std::size_t k) { return load(column + t[k] * kLanes); };
+    const Lanes near2 = min(min(of(distance2, 0), of(distance2, 1)), of(distance2, 2));
+    const Lanes far = kept + bulge;
+    const LaneMask near = near2 < far * far + longest_side2 * (1.0f / 3.0f);
+    if (!any(near)) return near;
+    const Vec3Lanes a = at(t[0]), b = at(t[1]), c = at(t[2]);
+    const Lanes side2 = max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+    const Lanes apart2 = near2 - side2 * (1.0f / 3.0f);
+    const LaneMask apart = apart2 > kept * kept;
+    const Lanes distance = sqrt(apart ? apart2 : all(1.0f)), turn = sqrt(side2) / distance;
+    Lanes fall{};
+    for (std::size_t k = 0; k < 3; ++k) fall = max(of(approach, k) + of(moved, k) * turn, fall);
+    return near & ~(apart & (distance >= kept + fall));
+  }
+};
+
+/// Footprints that need their planes, one a lane: corners, m, on the coarse triangle, and which drawn vertices they
+/// are. Lanes without one repeat the first.
+struct PlaneGroup {
+  float x[3][kLanes], y[3][kLanes], z[3][kLanes];
+  std::uint32_t vertex[3][kLanes], capsule[kLanes], count = 0;
+
+  PLEAT_KERNEL void fill() {
+    for (std::uint32_t k = count; k < kLanes; ++k) {
+      capsule[k] = capsule[0];
+      for (std::size_t c = 0; c < 3; ++c) x[c][k] = x[c][0], y[c][k] = y[c][0], z[c][k] = z[c][0];
     }
-    return -largest(-least);
-  }
-
-  /// How far the vertices approach the core at most, m, where a footprint is `distance` or more from it: see stays_out.
-  PLEAT_KERNEL float largest_fall(float distance) const {
-    const float turn = std::sqrt(longest_side2) / distance;
-    Lanes most{};
-    for (std::uint32_t i = 0; i < room; i += kLanes) most = max(load(approach + i) + load(moved + i) * turn, most);
-    return largest(most);
   }
 };
 
 struct Lifter {
   const SurfaceClearance& in;
-  mutable bool has_settled = false;  // so that what is known of motions has to be looked up anew
+  Pairs pairs;
+  PlaneGroup planes;
+  explicit Lifter(const SurfaceClearance& system) : in(system) {}
+  std::uint32_t settled = 0;  // how often: then what is known of motions has to be looked up anew
 
-  PLEAT_KERNEL void measure_motion() const {
-    for (std::size_t v = 0; v < in.pattern->vertex_count; v += kLanes) {
-      store(length(load(in.drawn_position, v) - load(in.footprint, v)), in.moved + v);
-    }
+  // Kernels of their own: one copy of each, wherever they are called from.
+  void keep_apart() {
+    run_wide(widest_vectors(), [this] { find_footprints(); });
+  }
+  void add_planes() {
+    run_wide(widest_vectors(), [this] { find_planes(); });
   }
 
-  PLEAT_KERNEL void gather_planes(std::uint32_t begin, std::uint32_t count) const {
-    FaceGroup faces(in, begin, count);
-    const auto for_each = [&](const LaneMask& near, const auto& visit) {
-      has_settled = false;
-      for (std::uint32_t rest = bits(near & first_lanes(count)); rest != 0; rest &= rest - 1) {
-        const int k = std::countr_zero(rest);
-        visit(begin + static_cast<std::uint32_t>(k), faces.bulge[k]);
+  PLEAT_KERNEL void run() {
+    for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
+      FaceGroup faces(in, begin);
+      const std::uint32_t valid = bits(first_lanes(in.garment->face_count - begin));
+      const auto for_each = [&](std::uint32_t near, const auto& visit) {
+        const std::uint32_t before = settled;
+        for (near &= valid; near != 0; near &= near - 1) visit(static_cast<std::uint32_t>(std::countr_zero(near)));
+        if (settled != before) faces = FaceGroup(in, begin);
+      };
+      for (std::size_t k = 0; k < in.half_space_count; ++k) {
+        if (!in.half_spaces[k].enabled) continue;
+        const PlanePose body(in.half_spaces[k], in.t);
+        const Lanes reach = body.height + in.clearance + faces.size + 2.0f * faces.bulge;
+        for_each(bits(dot(all(body.normal), faces.center) < reach),
+                 [&](std::uint32_t lane) { keep_above(begin + lane, faces.bulge[lane], body); });
       }
-      if (has_settled) faces = FaceGroup(in, begin, count);
-    };
-    for (std::size_t k = 0; k < in.half_space_count; ++k) {
-      if (!in.half_spaces[k].enabled) continue;
-      const PlanePose body(in.half_spaces[k], in.t);
-      const Lanes reach = body.height + in.clearance + faces.size + 2.0f * faces.bulge;
-      for_each(dot(all(body.normal), faces.center) < reach,
-               [&](std::uint32_t f, float bulge) { keep_above(f, bulge, body); });
+      for (std::uint32_t k = 0; k < in.capsule_count; ++k) {
+        const float kept = widest_radius(in.capsules[k]) + in.clearance;
+        for_each(bits(faces.may_touch(Core(in.capsules[k], 0.0f), kept)), [&](std::uint32_t lane) {
+          pairs.add(begin + lane, k);
+          if (pairs.count == kLanes) keep_apart();
+        });
+      }
     }
-    for (std::uint32_t k = 0; k < in.capsule_count; ++k) {
-      const CapsulePose& capsule = in.capsules[k];
-      const float kept = widest_radius(capsule) + in.clearance;
-      for_each(may_touch(faces, Core(capsule, 0.0f), kept), [&](std::uint32_t f, float bulge) {
-        FaceVertices face(in, f, bulge);
-        add_planes(face, capsule, kept, face.measure(capsule));
-      });
-    }
-  }
-
-  /// Not where the coarse triangle is further from the core than the largest motion of a vertex and what is kept.
-  static PLEAT_KERNEL LaneMask may_touch(const FaceGroup& faces, const Core& core, float kept) {
-    const Vec3Lanes away = away_from(core, faces.center);
-    const Lanes around = kept + faces.size + faces.bulge, far = kept + faces.bulge + kLaneRounding;
-    const LaneMask near = dot(away, away) < around * around;
-    if (!any(near)) return near;
-    return near & (TriangleGap(core, faces.corner[0], faces.corner[1], faces.corner[2]).distance2 < far * far);
+    if (pairs.count != 0) keep_apart();
+    if (planes.count != 0) add_planes();
   }
 
   /// A half-space is its own plane for every vertex, also for those that a capsule may still move by a bulge.
-  void keep_above(std::uint32_t f, float bulge, const PlanePose& body) const {
+  void keep_above(std::uint32_t f, float bulge, const PlanePose& body) {
     const float height = body.height + in.clearance;
     const std::uint32_t count = in.pattern->vertices_per_face;
     const std::uint32_t* drawn = in.pattern->face_vertices.data() + std::size_t{f} * count;
@@ -141,75 +220,78 @@ struct Lifter {
     }
   }
 
-  PLEAT_KERNEL void add_planes(const FaceVertices& face, const CapsulePose& capsule, float kept, float nearest2) const {
-    const float far = kept + face.bulge, far2 = far * far + face.longest_side2 * (1.0f / 3.0f);
-    if (nearest2 >= far2) return;
-    const float distance2 = nearest2 - face.longest_side2 * (1.0f / 3.0f);
-    if (distance2 > kept * kept && std::sqrt(distance2) >= kept + face.largest_fall(std::sqrt(distance2))) return;
-    const std::uint32_t* t = in.pattern->face_triangles.data();
-    const std::uint32_t* end = t + in.pattern->face_triangles.size();
-    PlaneBatch batch;
-    for (; t != end; t += 3) {
-      const float near2 = std::min({face.distance2[t[0]], face.distance2[t[1]], face.distance2[t[2]]});
-      if (near2 >= far2 || stays_out(face, t, near2, kept)) continue;
-      for (std::size_t k = 0; k < 3; ++k) batch.corner[k][batch.count] = t[k];
-      if (++batch.count == kLanes) flush(face, capsule, batch);
+  /// Looks for footprints that need planes, one pair after the other; then there are no pairs. Vertices that planes
+  /// move on the way, where the list is full, are looked at anew.
+  PLEAT_KERNEL void find_footprints() {
+    pairs.fill();
+    const CapsuleLanes capsules(in, pairs.capsule);
+    const std::uint32_t* triangles = in.pattern->face_triangles.data();
+    const std::uint32_t end = static_cast<std::uint32_t>(in.pattern->face_triangles.size());
+    for (std::uint32_t lane = 0; lane < pairs.count;) {
+      const PairVertices vertices(in, pairs, capsules.core);
+      std::uint16_t of_lane[kLanes][kMostTriangles];  // of face_triangles, where footprints begin
+      std::uint32_t count[kLanes]{};
+      for (std::uint32_t t = 0; t < end; t += 3) {
+        std::uint32_t rest = bits(vertices.may_fall_behind(triangles + t, capsules.kept));
+        for (; rest != 0; rest &= rest - 1) {
+          const int k = std::countr_zero(rest);
+          of_lane[k][count[k]++] = static_cast<std::uint16_t>(t);
+        }
+      }
+      const std::uint32_t before = settled;
+      for (; lane < pairs.count && settled == before; ++lane) {
+        const std::uint32_t* drawn =
+            in.pattern->face_vertices.data() + std::size_t{pairs.face[lane]} * in.pattern->vertices_per_face;
+        for (std::uint32_t i = 0; i < count[lane]; ++i) {
+          const std::uint32_t* corner = triangles + of_lane[lane][i];
+          const std::uint32_t n = planes.count++;
+          planes.capsule[n] = pairs.capsule[lane];
+          for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t v = corner[c] * kLanes + lane;
+            planes.x[c][n] = vertices.x[v], planes.y[c][n] = vertices.y[v], planes.z[c][n] = vertices.z[v];
+            planes.vertex[c][n] = drawn[corner[c]];
+          }
+          if (planes.count == kLanes) add_planes();
+        }
+      }
     }
-    if (batch.count != 0) flush(face, capsule, batch);
+    pairs.count = 0;
   }
 
-  /// Without the plane, from below. A footprint of longest side s whose corners are at least d from the core is
-  /// D >= sqrt(d^2 - s^2/3) from it, for no point of it is further than s/sqrt(3) from all corners. Over the footprint
-  /// the direction away from the core turns by at most s/D, so a vertex that moves by m and approaches the core by h,
-  /// as seen from its own place, falls towards the core by at most h + m s/D.
-  static bool stays_out(const FaceVertices& face, const std::uint32_t* t, float nearest2, float kept) {
-    const Vec3 a = face.at(t[0]), b = face.at(t[1]), c = face.at(t[2]);
-    const float side2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-    const float distance2 = nearest2 - side2 * (1.0f / 3.0f);
-    if (distance2 <= kept * kept) return false;
-    const float distance = std::sqrt(distance2), turn = std::sqrt(side2) / distance;
-    float fall = 0.0f;
-    for (int k = 0; k < 3; ++k) fall = std::max(fall, face.approach[t[k]] + face.moved[t[k]] * turn);
-    return distance >= kept + fall;
-  }
-
-  /// Footprints that need their planes, as corners in their face's numbering; places without one repeat others.
-  struct PlaneBatch {
-    std::uint32_t corner[3][kLanes] = {}, count = 0;
-  };
-
-  PLEAT_KERNEL void flush(const FaceVertices& face, const CapsulePose& capsule, PlaneBatch& batch) const {
-    const ConstVec3View at{face.x, face.y, face.z};
-    const Vec3Lanes a = gather(at, batch.corner[0]), b = gather(at, batch.corner[1]), c = gather(at, batch.corner[2]);
-    const Vec3Lanes away =
-        capsule.taper == 0.0f ? TriangleGap(Core(capsule, 0.0f), a, b, c).away : away_from_tapered(capsule, a, b, c);
+  PLEAT_KERNEL void find_planes() {
+    planes.fill();
+    const CapsuleLanes capsules(in, planes.capsule);
+    const auto corner = [&](std::size_t c) { return load({planes.x[c], planes.y[c], planes.z[c]}, 0); };
+    const Vec3Lanes a = corner(0), b = corner(1), c = corner(2);
+    Vec3Lanes away = TriangleGap(capsules.core, a, b, c).away;
+    if (any(capsules.taper != 0.0f)) set_tapered(a, b, c, away);
     const Vec3Lanes normal = normalized_or(away, normalized_or(cross(b - a, c - a), all(Vec3{0, 1, 0})));
-    const Lanes height =
-        max(dot(normal, all(capsule.a)), dot(normal, all(capsule.b)) + capsule.taper) + (capsule.radius + in.clearance);
-    for (std::uint32_t k = 0; k < batch.count; ++k) {
-      add({{normal.x[k], normal.y[k], normal.z[k]},
-           height[k],
-           {face.drawn[batch.corner[0][k]], face.drawn[batch.corner[1][k]], face.drawn[batch.corner[2][k]]}});
+    const Lanes height = max(dot(normal, capsules.core.a), dot(normal, capsules.core.b) + capsules.taper) +
+                         (capsules.radius + in.clearance);
+    Vec4 side[kLanes];
+    pack(normal, height, side);
+    for (std::uint32_t k = 0; k < planes.count; ++k) {
+      add({{side[k].x, side[k].y, side[k].z},
+           side[k].w,
+           {planes.vertex[0][k], planes.vertex[1][k], planes.vertex[2][k]}});
     }
-    batch.count = 0;
+    planes.count = 0;
   }
 
-  static Vec3Lanes away_from_tapered(const CapsulePose& capsule, const Vec3Lanes& a, const Vec3Lanes& b,
-                                     const Vec3Lanes& c) {
-    Vec3Lanes all_away;
+  void set_tapered(const Vec3Lanes& a, const Vec3Lanes& b, const Vec3Lanes& c, Vec3Lanes& away) {
     for (std::size_t k = 0; k < kLanes; ++k) {
+      const CapsulePose& capsule = in.capsules[planes.capsule[k]];
+      if (capsule.taper == 0.0f) continue;
       const auto lane = [k](const Vec3Lanes& v) { return Vec3{v.x[k], v.y[k], v.z[k]}; };
-      const Vec3 away = gap_to_triangle(capsule, lane(a), lane(b), lane(c)).away;
-      all_away.x[k] = away.x, all_away.y[k] = away.y, all_away.z[k] = away.z;
+      const Vec3 found = gap_to_triangle(capsule, lane(a), lane(b), lane(c)).away;
+      away.x[k] = found.x, away.y[k] = found.y, away.z[k] = found.z;
     }
-    return all_away;
   }
 
-  void add(const ClearancePlane& plane) const {
+  void add(const ClearancePlane& plane) {
     if (in.planes.is_full()) {
       in.planes.settle(in.drawn_position);
-      measure_motion();
-      has_settled = true;
+      ++settled;
     }
     in.planes.add(plane, in.drawn_position);
   }
@@ -218,20 +300,15 @@ struct Lifter {
 }  // namespace
 
 bool SurfaceClearance::validate() const {
-  return garment != nullptr && pattern != nullptr && footprint.x != nullptr &&
+  return garment != nullptr && pattern != nullptr && position.x != nullptr &&
          (capsules != nullptr || capsule_count == 0) && (half_spaces != nullptr || half_space_count == 0) &&
-         clearance >= 0.0f && moved != nullptr && planes.validate() && drawn_position.x != nullptr;
+         clearance >= 0.0f && planes.validate() && drawn_position.x != nullptr;
 }
 
 void SurfaceClearance::run() const {
   if (capsule_count + half_space_count != 0) {
-    const Lifter lifter{*this};
-    run_wide(widest_vectors(), [&] {
-      lifter.measure_motion();
-      for (std::uint32_t f = 0; f < garment->face_count; f += kLanes) {
-        lifter.gather_planes(f, std::min(kLanes, garment->face_count - f));
-      }
-    });
+    Lifter lifter(*this);
+    run_wide(widest_vectors(), [&] { lifter.run(); });
   }
   planes.settle(drawn_position);
 }

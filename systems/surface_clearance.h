@@ -26,22 +26,20 @@ namespace pleat {
 /// rounding. One sweep does it where the planes at a vertex agree (all angles between their normals are at most 90
 /// degrees); where they do not, as between two legs, sweeps repeat and converge as long as the coarse triangles are
 /// outside.
-/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; capsules;
-/// half-spaces;
-///         planes that other systems have gathered already. Columns into their padding
-/// Writes: drawn_position (V) m; planes, which are settled; moved, scratch, in whole lanes into the padding
+/// Reads:  garment faces; pattern; position (P) m; capsules; half-spaces; planes that other systems have gathered
+///         already
+/// Writes: drawn_position (V) m; planes, which are settled
 /// Cost:   O(V + F capsules + drawn triangles near a capsule), no allocation. Errors: none.
 struct SurfaceClearance {
   const Garment* garment = nullptr;
   const TessellationPattern* pattern = nullptr;
-  ConstVec3View footprint;
+  ConstVec3View position;
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   const PlaneCollider* half_spaces = nullptr;
   std::size_t half_space_count = 0;
   float t = 1.0f;          // fraction of the tick at which the half-spaces are asked for
   float clearance = 0.0f;  // m
-  float* moved = nullptr;  // (V) m, scratch: from the footprint to where the vertex is drawn
   ClearanceList planes;
   Vec3View drawn_position;
 

@@ -22,27 +22,18 @@ struct Clearance {
   Surface& surface;
   std::vector<CapsulePose> capsules;
   std::vector<PlaneCollider> half_spaces = {};
-  Vec3Column footprint{std::pmr::get_default_resource()};
-  Column<float> moved{std::pmr::get_default_resource()};
   std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
   std::uint32_t count = 0;
 
   SurfaceClearance system() {
-    footprint.resize(surface.pattern.vertex_count);
-    moved.resize(surface.pattern.vertex_count);
-    Tessellation flat = surface.tessellation();
-    flat.mode = SurfaceMode::kFlat;
-    flat.drawn_position = footprint.view();
-    flat.run();
     return {.garment = &surface.garment,
             .pattern = &surface.pattern,
-            .footprint = footprint.view(),
+            .position = surface.position.view(),
             .capsules = capsules.data(),
             .capsule_count = static_cast<std::uint32_t>(capsules.size()),
             .half_spaces = half_spaces.data(),
             .half_space_count = half_spaces.size(),
             .clearance = kClearance,
-            .moved = moved.data(),
             .planes = {planes.data(), static_cast<std::uint32_t>(planes.size()), &count},
             .drawn_position = surface.drawn.view()};
   }
@@ -277,9 +268,7 @@ TEST(SurfaceClearance, ValidateNamesWhatIsMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.clearance = -1.0f;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.footprint = {};
-  EXPECT_FALSE(bad.validate());
-  bad = good, bad.moved = nullptr;
+  bad = good, bad.position = {};
   EXPECT_FALSE(bad.validate());
 }
 
