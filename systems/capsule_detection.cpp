@@ -24,19 +24,6 @@ Vec3 any_perpendicular(const Vec3& a) {
   return normalized_or(std::abs(a.x) < std::abs(a.y) ? Vec3{0.0f, a.z, -a.y} : Vec3{-a.z, 0.0f, a.x}, {0, 1, 0});
 }
 
-/// Some candidates, side by side.
-struct Batch {
-  std::uint32_t feature[kLanes];
-  std::uint32_t count = 0;
-
-  std::uint32_t used() const { return (1u << count) - 1; }  // a bit a place
-  /// Places without a feature repeat the first.
-  void fill_up() { std::fill(feature + count, feature + kLanes, feature[0]); }
-  void look_up(const Column<std::uint32_t>& of, std::uint32_t (&found)[kLanes]) const {
-    for (std::uint32_t k = 0; k < kLanes; ++k) found[k] = of[feature[k]];
-  }
-};
-
 /// One capsule against one cloth.
 struct CapsuleTest {
   const CapsuleDetection& in;
@@ -111,38 +98,51 @@ struct CapsuleTest {
     });
   }
 
-  /// test(batch) for all candidates, in order.
+  /// test(features, used) for all candidates in order, eight at a time. The last may be fewer: `used` has a bit for
+  /// each place with a candidate of its own.
   template <class Test>
-  void for_each_batch(const std::uint64_t* begin, const std::uint64_t* end, const Test& test) const {
-    Batch batch;
-    for_each_bit(begin, end, [&](std::uint32_t feature) {
-      batch.feature[batch.count++] = feature;
-      if (batch.count < kLanes) return;
-      test(batch);
-      batch.count = 0;
-    });
-    if (batch.count == 0) return;
-    batch.fill_up();
-    test(batch);
+  void for_each_eight(const std::uint64_t* begin, const std::uint64_t* end, const Test& test) const {
+    constexpr std::uint32_t kBits = 64;
+    std::uint32_t feature[kLanes + kBits + kLanes], count = 0;
+    for (const std::uint64_t* word = begin; word != end; ++word) {
+      const auto first = kBits * static_cast<std::uint32_t>(word - begin);
+      for (std::uint64_t rest = *word; rest != 0; rest &= rest - 1) {
+        feature[count++] = first + static_cast<std::uint32_t>(std::countr_zero(rest));
+      }
+      std::uint32_t ready = count / kLanes * kLanes;
+      if (word + 1 == end && ready != count) std::fill_n(feature + count, kLanes, feature[0]), ready = count;
+      for (std::uint32_t k = 0; k < ready; k += kLanes) {
+        test(feature + k, (1u << std::min(ready - k, kLanes)) - 1);
+      }
+      std::copy(feature + ready, feature + count, feature);
+      count -= ready;
+    }
+  }
+
+  /// Where eight features have a corner that is in column `corner`.
+  Vec3Lanes places(const Column<std::uint32_t>& corner, const std::uint32_t* feature) const {
+    std::uint32_t index[kLanes];
+    for (std::uint32_t k = 0; k < kLanes; ++k) index[k] = corner[feature[k]];
+    return gather(in.position, index);
   }
 
   void test_edges(Stats& stats) const {
     const auto& end = in.garment->edge_particle;
-    for_each_batch(near + words.edges, near + words.faces, [&](const Batch& batch) {
-      std::uint32_t i[kLanes], j[kLanes];
-      batch.look_up(end[0], i), batch.look_up(end[1], j);
-      const EdgeDistance found(lanes, EdgeLanes(in.position, i, j));
+    for_each_eight(near + words.edges, near + words.faces, [&](const std::uint32_t* edge, std::uint32_t used) {
+      const EdgeDistance found(lanes, EdgeLanes(places(end[0], edge), places(end[1], edge)));
       const LaneMask known = capsule.taper == 0.0f ? found.crosses : LaneMask{};
       const LaneMask at_end = (found.s < kEndShare) | (found.s > 1.0f - kEndShare);
+      std::uint32_t rest = bits((found.distance2 < lanes.reach2) & ~(known & at_end)) & used;
+      if (rest == 0) return;
       float s[kLanes], t[kLanes];
       store(found.s, s), store(found.t, t);
       const std::uint32_t good = bits(known);
-      std::uint32_t rest = bits((found.distance2 < lanes.reach2) & ~(known & at_end)) & batch.used();
       for (; rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest);
-        const Vec3 xi = in.position[i[k]], xj = in.position[j[k]];
+        const std::uint32_t i = end[0][edge[k]], j = end[1][edge[k]];
         const bool is_good = (good >> k & 1) != 0;
-        test_edge(i[k], j[k], is_good ? SegmentPair{s[k], t[k]} : closest_to_capsule(xi, xj, capsule), stats);
+        test_edge(i, j, is_good ? SegmentPair{s[k], t[k]} : closest_to_capsule(in.position[i], in.position[j], capsule),
+                  stats);
       }
     });
   }
@@ -158,18 +158,15 @@ struct CapsuleTest {
   /// Where an end of the core is over the inside of a face; all other places that are closest belong to its edges.
   void test_faces(Stats& stats) const {
     const auto& corner = in.garment->face_particle;
-    for_each_batch(near + words.faces, near + words.end, [&](const Batch& batch) {
-      std::uint32_t i[kLanes], j[kLanes], k[kLanes];
-      batch.look_up(corner[0], i), batch.look_up(corner[1], j), batch.look_up(corner[2], k);
-      const FaceAreas faces(gather(in.position, i), gather(in.position, j), gather(in.position, k));
+    for_each_eight(near + words.faces, near + words.end, [&](const std::uint32_t* face, std::uint32_t used) {
+      const FaceAreas faces(places(corner[0], face), places(corner[1], face), places(corner[2], face));
       const PointOver a(faces, all(core(0.0f)), reach), b(faces, all(core(1.0f)), reach);
-      const std::uint32_t over_a = bits(a.over) & batch.used();
-      const std::uint32_t over_b = capsule.a == capsule.b ? 0 : bits(b.over) & batch.used();
+      const std::uint32_t over_a = bits(a.over) & used, over_b = capsule.a == capsule.b ? 0 : bits(b.over) & used;
       for (std::uint32_t rest = over_a | over_b; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-        const std::uint32_t face[] = {i[lane], j[lane], k[lane]};
-        if ((over_a >> lane & 1) != 0) add_flat(face, a.second[lane], a.third[lane], 0.0f, stats);
-        if ((over_b >> lane & 1) != 0) add_flat(face, b.second[lane], b.third[lane], 1.0f, stats);
+        const auto k = static_cast<std::uint32_t>(std::countr_zero(rest));
+        const std::uint32_t at[] = {corner[0][face[k]], corner[1][face[k]], corner[2][face[k]]};
+        if ((over_a >> k & 1) != 0) add_flat(at, a.second[k], a.third[k], 0.0f, stats);
+        if ((over_b >> k & 1) != 0) add_flat(at, b.second[k], b.third[k], 1.0f, stats);
       }
     });
   }
@@ -206,8 +203,10 @@ void CapsuleDetection::run(Stats& stats) const {
     const float margin = contact_margin(position, previous, garment->particle_count);
     const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
     const std::uint64_t* near = candidates->near.data();
-    for (std::uint32_t c = 0; c < capsule_count; ++c, near += FeatureWords(*garment).end) {
-      CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
+    const std::size_t words = FeatureWords(*garment).end;
+    for (std::uint32_t c = 0; c < capsule_count; ++c, near += words) {
+      const bool none = std::all_of(near, near + words, [](std::uint64_t word) { return word == 0; });
+      if (!none) CapsuleTest{*this, capsules[c], rows, margin, near}.run(stats);
     }
   });
 }
