@@ -91,7 +91,7 @@ void CapsuleCandidates::run() const {
   run_wide(widest_vectors(), [this] {
     CapsuleCandidateColumns& out = *candidates;
     const std::uint32_t count = garment->particle_count;
-    const float margin = contact_margin(position, previous, count);
+    const float margin = contact_margin_in_kernel(position, previous, count);
     if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - kLaneRounding) return;
 
     for (std::uint32_t i = 0; i < count; i += kLanes) store(load(position, i), out.anchor.view(), i);

@@ -200,7 +200,7 @@ void CapsuleDetection::run(Stats& stats) const {
       if (c % kLanes == 0) blocks[c / kLanes] = CapsuleBlock{};
       blocks[c / kLanes].put(c % kLanes, capsules[c]);
     }
-    const float margin = contact_margin(position, previous, garment->particle_count);
+    const float margin = contact_margin_in_kernel(position, previous, garment->particle_count);
     const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
     const std::uint64_t* near = candidates->near.data();
     const std::size_t words = FeatureWords(*garment).end;

@@ -4,6 +4,7 @@
 #include "components/contacts.h"
 #include "components/lanes.h"
 #include "components/stats.h"
+#include "components/wide.h"
 #include "systems/closest_points.h"
 
 namespace pleat {
@@ -12,12 +13,17 @@ inline constexpr float kLeastMargin = 0.01f;  // m
 
 /// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
 /// may be moved against: kLeastMargin, or more for a cloth that moves further in the substep. m
-inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
+PLEAT_KERNEL float contact_margin_in_kernel(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
   const float motion2 = largest(count, [&](std::size_t i) {
     const Vec3Lanes d = load(position, i) - load(previous, i);
     return dot(d, d);
   });
   return std::max(kLeastMargin, std::sqrt(motion2));
+}
+inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
+  float margin = 0.0f;
+  run_wide(widest_vectors(), [&] { margin = contact_margin_in_kernel(position, previous, count); });
+  return margin;
 }
 
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s
