@@ -11,21 +11,21 @@
 namespace pleat {
 namespace {
 
-/// The furthest that a particle and a core may have come nearer to each other than they were, m. Between its ends a
-/// core has moved by no more than they have.
-PLEAT_KERNEL float relative_motion(const CapsuleCandidates& in) {
+/// Whether a particle and a core may have come nearer to each other than they were by more than `most`, m. Between its
+/// ends a core has moved by no more than they have.
+PLEAT_KERNEL bool moved_by_more(const CapsuleCandidates& in, float most) {
   const ConstVec3View anchor = in.candidates->anchor.view();
-  float most2 = 0.0f;
+  if (most < 0.0f) return true;
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
     const Vec3Lanes of_a = all(now.a - then.a), of_b = all(now.b - then.b);
-    most2 = std::max(most2, largest(in.garment->particle_count, [&](std::size_t i) {
-                       const Vec3Lanes motion = load(in.position, i) - load(anchor, i), a = motion - of_a,
-                                       b = motion - of_b;
-                       return max(dot(a, a), dot(b, b));
-                     }));
+    const float motion2 = largest(in.garment->particle_count, [&](std::size_t i) {
+      const Vec3Lanes motion = load(in.position, i) - load(anchor, i), a = motion - of_a, b = motion - of_b;
+      return max(dot(a, a), dot(b, b));
+    });
+    if (!(motion2 <= most * most)) return true;
   }
-  return std::sqrt(most2);
+  return false;
 }
 
 bool same_capsules(const CapsuleCandidates& in) {
@@ -92,7 +92,8 @@ void CapsuleCandidates::run() const {
     CapsuleCandidateColumns& out = *candidates;
     const std::uint32_t count = garment->particle_count;
     const float margin = contact_margin_in_kernel(position, previous, count);
-    if (!first && same_capsules(*this) && margin + relative_motion(*this) <= out.margin - kLaneRounding) return;
+    const bool stale = first || !same_capsules(*this) || moved_by_more(*this, out.margin - kLaneRounding - margin);
+    if (!stale) return;
 
     for (std::uint32_t i = 0; i < count; i += kLanes) store(load(position, i), out.anchor.view(), i);
     std::copy_n(capsules, capsule_count, out.sought.begin());
