@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "components/lanes.h"
+#include "components/wide.h"
+
 namespace pleat {
 
 bool AirDamping::validate() const {
@@ -10,7 +13,12 @@ bool AirDamping::validate() const {
 
 void AirDamping::run() const {
   const float safe_rate = std::min(rate, 0.5f / dt);
-  for (std::size_t i = 0; i < particle_count; ++i) force.add(i, velocity[i] * (-safe_rate * mass[i]));
+  run_wide(widest_vectors(), [&] {
+    for (std::size_t i = 0; i < particle_count; i += kLanes) {
+      const Vec3Lanes drag = load(velocity, i) * (-safe_rate * load(mass + i));
+      store(load(ConstVec3View(force), i) + drag, force, i);
+    }
+  });
 }
 
 }  // namespace pleat

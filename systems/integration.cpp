@@ -1,26 +1,23 @@
 #include "systems/integration.h"
 
+#include "components/lanes.h"
+#include "components/wide.h"
+
 namespace pleat {
-namespace {
-
-void euler_axis(std::size_t n, const float* w, const float* f, float dt, bool symplectic, float* x, float* v) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float old_velocity = v[i];
-    v[i] += dt * (w[i] * f[i]);
-    x[i] += dt * (symplectic ? v[i] : old_velocity);
-  }
-}
-
-}  // namespace
 
 bool EulerIntegration::validate() const {
   return inverse_mass != nullptr && force.x != nullptr && position.x != nullptr && velocity.x != nullptr && dt > 0.0f;
 }
 
 void EulerIntegration::run() const {
-  euler_axis(particle_count, inverse_mass, force.x, dt, symplectic, position.x, velocity.x);
-  euler_axis(particle_count, inverse_mass, force.y, dt, symplectic, position.y, velocity.y);
-  euler_axis(particle_count, inverse_mass, force.z, dt, symplectic, position.z, velocity.z);
+  run_wide(widest_vectors(), [&] {
+    for (std::size_t i = 0; i < particle_count; i += kLanes) {
+      const Vec3Lanes before = load(ConstVec3View(velocity), i);
+      const Vec3Lanes after = before + load(force, i) * load(inverse_mass + i) * dt;
+      store(after, velocity, i);
+      store(load(ConstVec3View(position), i) + (symplectic ? after : before) * dt, position, i);
+    }
+  });
 }
 
 bool RungeKuttaIntegration::validate() const {

@@ -1,5 +1,8 @@
 #include "systems/velocity_update.h"
 
+#include "components/lanes.h"
+#include "components/wide.h"
+
 namespace pleat {
 
 bool VelocityUpdate::validate() const {
@@ -9,9 +12,12 @@ bool VelocityUpdate::validate() const {
 
 void VelocityUpdate::run() const {
   const float rate = 1.0f / dt;
-  for (std::size_t i = 0; i < particle_count; ++i) {
-    if (inverse_mass[i] != 0.0f) velocity.add(i, (position[i] - predicted[i]) * rate);
-  }
+  run_wide(widest_vectors(), [&] {
+    for (std::size_t i = 0; i < particle_count; i += kLanes) {
+      const Vec3Lanes v = load(ConstVec3View(velocity), i), change = (load(position, i) - load(predicted, i)) * rate;
+      store(choose(load(inverse_mass + i) != 0.0f, v + change, v), velocity, i);
+    }
+  });
 }
 
 }  // namespace pleat

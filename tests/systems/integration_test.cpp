@@ -17,16 +17,24 @@ struct Particle {
   float inverse_mass = 1.0f;
   Vec3 x, v, f, start_x, start_v, slope_x, slope_v;
 
+  Column<float> inverse_masses{std::pmr::new_delete_resource()};  // of whole lanes, as Euler's steps read and write
+  Vec3Column force{std::pmr::new_delete_resource()}, position{std::pmr::new_delete_resource()},
+      velocity{std::pmr::new_delete_resource()};
+
   static Vec3View view(Vec3& a) { return {&a.x, &a.y, &a.z}; }
 
   EulerIntegration euler(float dt, bool symplectic) {
+    inverse_masses.resize(1);
+    for (Vec3Column* column : {&force, &position, &velocity}) column->resize(1);
+    inverse_masses[0] = inverse_mass;
+    force.view().set(0, f), position.view().set(0, x), velocity.view().set(0, v);
     return {.particle_count = 1,
-            .inverse_mass = &inverse_mass,
-            .force = view(f),
+            .inverse_mass = inverse_masses.data(),
+            .force = force.view(),
             .dt = dt,
             .symplectic = symplectic,
-            .position = view(x),
-            .velocity = view(v)};
+            .position = position.view(),
+            .velocity = velocity.view()};
   }
   RungeKuttaIntegration runge_kutta(float dt, int stage) {
     return {.particle_count = 1,
@@ -51,6 +59,7 @@ struct Particle {
     } else {
       f = law(x, v);
       euler(dt, scheme == Scheme::kSymplectic).run();
+      x = position.view()[0], v = velocity.view()[0];
     }
   }
 };
