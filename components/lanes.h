@@ -193,8 +193,13 @@ inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
 /// What forces on edges and hinges read and add to, as vectors; unpack(packed.force) brings them back.
 inline void pack_state(ConstVec3View position, const float* inverse_mass, ConstVec3View velocity, ConstVec3View force,
                        std::size_t count, Vec4Columns& packed) {
-  pack(position, inverse_mass, count, packed.position.data());
-  pack(velocity, nullptr, count, packed.velocity.data());
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    Four x[kLanes], v[kLanes];
+    split(load(position, i), load(inverse_mass + i), x);
+    split(load(velocity, i), Lanes{}, v);
+    Motion* to = packed.motion.data() + i;
+    for (std::size_t k = 0; k < kLanes; ++k) store(x[k], to[k].position), store(v[k], to[k].velocity);
+  }
   pack(force, nullptr, count, packed.force.data());
 }
 
@@ -207,6 +212,26 @@ inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
   }
   transpose(pairs, places);
   return {{places[0], places[1], places[2]}, places[3]};
+}
+
+struct MotionLanes {
+  Vec3Lanes position, velocity;
+  Lanes inverse_mass;
+};
+
+using LanesInMemory = float __attribute__((vector_size(kLanes * sizeof(float)), may_alias));
+
+/// from[index[0]], from[index[1]], ...
+inline MotionLanes gather(const Motion* from, const std::uint32_t* index) {
+  Lanes motions[2][4], low[4], high[4];  // of the first four and of the last
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    motions[k / 4][k % 4] = reinterpret_cast<const LanesInMemory&>(from[index[k]]);
+  }
+  transpose(motions[0], low), transpose(motions[1], high);
+  Lanes x[4], v[3];
+  for (std::size_t k = 0; k < 4; ++k) x[k] = __builtin_shufflevector(low[k], high[k], 0, 1, 2, 3, 8, 9, 10, 11);
+  for (std::size_t k = 0; k < 3; ++k) v[k] = __builtin_shufflevector(low[k], high[k], 4, 5, 6, 7, 12, 13, 14, 15);
+  return {{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, x[3]};
 }
 
 /// to[index[k]] = lane k, one after the other.

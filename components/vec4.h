@@ -12,19 +12,24 @@ struct alignas(16) Vec4 {
 
 constexpr Vec3 vector_of(const Vec4& a) { return {a.x, a.y, a.z}; }
 
+/// Where a particle is and where it goes: a single load of eight lanes.
+struct alignas(32) Motion {
+  Vec4 position, velocity;
+};
+
 /// Of as many particles as one cloth has, padded, and two places more for empty slots of edges (garment.h): scratch of
 /// what works on edges and hinges.
 struct Vec4Columns {
-  Column<Vec4> position, velocity, force;  // m and, w, 1/kg of inverse mass; m/s; N
+  Column<Vec4> position, force;  // m and, w, 1/kg of inverse mass; N
+  Column<Motion> motion;         // the same positions; m/s
 
-  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), velocity(m), force(m) {}
+  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), force(m), motion(m) {}
   void make_room(std::size_t particles) {
     const std::size_t wanted = padded(particles) + 2;
-    for (Column<Vec4>* c : {&position, &velocity, &force}) {
-      if (c->size() < wanted) c->resize(wanted);
-    }
+    if (holds(particles)) return;
+    position.resize(wanted), force.resize(wanted), motion.resize(wanted);
   }
-  bool holds(std::size_t particles) const { return force.size() >= padded(particles) + 2; }
+  bool holds(std::size_t particles) const { return motion.size() >= padded(particles) + 2; }
 };
 
 }  // namespace pleat

@@ -11,12 +11,11 @@ namespace {
 PLEAT_KERNEL void damp(const Garment& g, float rate, Vec4Columns& packed) {
   for (std::uint32_t begin = 0; begin < g.edge_count; begin += kLanes) {
     const std::uint32_t *i = g.edge_particle[0].data() + begin, *j = g.edge_particle[1].data() + begin;
-    const Vec4Lanes xi = gather(packed.position.data(), i), xj = gather(packed.position.data(), j);
-    const Vec4Lanes vi = gather(packed.velocity.data(), i), vj = gather(packed.velocity.data(), j);
-    const Vec3Lanes d = xj.vector - xi.vector;
-    const Lanes length2 = dot(d, d), weight = xi.w + xj.w;
+    const MotionLanes a = gather(packed.motion.data(), i), b = gather(packed.motion.data(), j);
+    const Vec3Lanes d = b.position - a.position;
+    const Lanes length2 = dot(d, d), weight = a.inverse_mass + b.inverse_mass;
     const LaneMask damped = (length2 >= 1e-18f) & (weight > 0.0f);
-    const Lanes share = rate * dot(vj.vector - vi.vector, d) / (damped ? weight * length2 : all(1.0f));
+    const Lanes share = rate * dot(b.velocity - a.velocity, d) / (damped ? weight * length2 : all(1.0f));
     const Vec3Lanes f = d * (damped ? share : Lanes{});
     const std::uint32_t count = std::min(kLanes, g.edge_count - begin);
     scatter_add(f, i, count, packed.force.data());

@@ -19,9 +19,9 @@ PLEAT_KERNEL Lanes angle_between(const Lanes& theta, const Lanes& rest) {
 PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_rate, float bound, float step_damping,
                        HingeBlock& out, float* turned) {
   const Garment& g = *in.garment;
-  Vec4Lanes x[4];
-  for (std::size_t k = 0; k < 4; ++k) x[k] = gather(in.packed->position.data(), g.hinge_particle[k].data() + begin);
-  const Vec3Lanes &x0 = x[0].vector, &x1 = x[1].vector, &x2 = x[2].vector, &x3 = x[3].vector;
+  MotionLanes at[4];
+  for (std::size_t k = 0; k < 4; ++k) at[k] = gather(in.packed->motion.data(), g.hinge_particle[k].data() + begin);
+  const Vec3Lanes &x0 = at[0].position, &x1 = at[1].position, &x2 = at[2].position, &x3 = at[3].position;
   const Vec3Lanes e = x1 - x0;
   const Vec3Lanes na = cross(e, x2 - x0), nb = cross(x3 - x0, e);
   const Lanes na2 = dot(na, na), nb2 = dot(nb, nb), e_length = sqrt(dot(e, e)), one = all(1.0f);
@@ -33,8 +33,8 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
                                  a * dot(x2 - x0, u) + b * dot(x3 - x0, u), a * -e_length, b * -e_length};
   Lanes yielding{}, speed{};
   for (std::size_t k = 0; k < 4; ++k) {
-    yielding += x[k].w * dot(gradient[k], gradient[k]);
-    speed += dot(gradient[k], gather(in.packed->velocity.data(), g.hinge_particle[k].data() + begin).vector);
+    yielding += at[k].inverse_mass * dot(gradient[k], gradient[k]);
+    speed += dot(gradient[k], at[k].velocity);
   }
   const LaneMask bends = has_extent & (yielding > 0.0f);
   const Lanes yields = bends ? yielding : one, here = bends ? one : Lanes{};
