@@ -69,17 +69,24 @@ std::uint32_t middle_of(std::span<const Vec3> positions) {
   return static_cast<std::uint32_t>(nearest - positions.begin());
 }
 
-void add_slots(std::span<const EdgeEnds> edges, Garment& g) {
+/// Edges between two pins are left out: nothing moves their ends.
+void add_slots(const std::vector<EdgeEnds>& all, Garment& g) {
+  std::vector<std::uint32_t> movable;
+  std::vector<EdgeEnds> edges;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) {
+    if (g.pinned[all[e][0]] != 0 && g.pinned[all[e][1]] != 0) continue;
+    movable.push_back(e);
+    edges.push_back(all[e]);
+  }
   const std::vector<std::uint32_t> slots = slots_of(g.particle_count, edges, kLanes);
   g.slot_count = static_cast<std::uint32_t>(slots.size());
   for (auto& column : g.slot_particle) column.resize(g.slot_count);
   g.slot_rest_length.resize(g.slot_count);
   for (std::size_t s = 0; s < slots.size(); ++s) {
-    const std::uint32_t e = slots[s];
-    const bool empty = e == kEmptySlot;
-    g.slot_particle[0][s] = empty ? g.empty_place() : edges[e][0];
-    g.slot_particle[1][s] = empty ? g.empty_place() + 1 : edges[e][1];
-    g.slot_rest_length[s] = empty ? 1.0f : g.edge_rest_length[e];
+    const bool empty = slots[s] == kEmptySlot;
+    g.slot_particle[0][s] = empty ? g.empty_place() : edges[slots[s]][0];
+    g.slot_particle[1][s] = empty ? g.empty_place() + 1 : edges[slots[s]][1];
+    g.slot_rest_length[s] = empty ? 1.0f : g.edge_rest_length[movable[slots[s]]];
   }
 }
 
