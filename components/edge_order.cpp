@@ -10,6 +10,9 @@ namespace pleat {
 namespace {
 
 constexpr std::uint32_t kFar = 0xffffffffu;
+/// Edges across, between particles as far as each other, come with those that lead on from the next ones out, which
+/// they do not meet: a processor works on runs of both at once.
+constexpr std::uint32_t kLate = 3;
 
 /// Of each particle, edges to the nearest of `from`; 0 where there is none in its part.
 std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<const std::uint32_t> from,
@@ -44,7 +47,10 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> fr
   };
   const std::vector<std::uint32_t> hops = count_hops(particle_count, from, edges);
   std::vector<Place> places;
-  for (const EdgeEnds& edge : edges) places.push_back({hops[edge[0]] + hops[edge[1]], 0, edge});
+  for (const EdgeEnds& edge : edges) {
+    const std::uint32_t from_pins = hops[edge[0]] + hops[edge[1]], late = hops[edge[0]] == hops[edge[1]] ? kLate : 0;
+    places.push_back({from_pins + late, 0, edge});
+  }
   std::sort(places.begin(), places.end());
 
   // The first colour that neither end has yet, of 64: an edge between more of them may take one twice.

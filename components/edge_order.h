@@ -11,9 +11,9 @@ namespace pleat {
 using EdgeEnds = std::array<std::uint32_t, 2>;
 
 /// Puts edges in bands by how far their two ends are from the nearest of `from`, in edges: a pass over them carries a
-/// pull from there outwards. These are the pins or, where a cloth has none, its middle, where it will lie on something.
-/// Within a band edges of one colour come together, which share no particle, so that runs of slots fill. What is not
-/// joined to any of them is one band. Cost: O(E log E).
+/// pull from there outwards, edges across it one band later. These are the pins or, where a cloth has none, its middle,
+/// where it will lie on something. Within a band edges of one colour come together, which share no particle, so that
+/// runs of slots fill. What is not joined to any of them is one band. Cost: O(E log E).
 void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> from, std::vector<EdgeEnds>& edges);
 
 inline constexpr std::uint32_t kEmptySlot = 0xffffffffu;

@@ -65,11 +65,11 @@ TEST(EdgeOrder, GoesFromThePinsDownWhateverTheNumbers) {
   order_edges(96, sheet.first_row(), sheet.edges);
   std::uint32_t last = 0;
   for (const auto& [i, j] : sheet.edges) {
-    const std::uint32_t row = std::min(sheet.row_of(i), sheet.row_of(j));
-    EXPECT_GE(row, last);
-    last = row;
+    const std::uint32_t row = std::min(sheet.row_of(i), sheet.row_of(j)), across = sheet.row_of(i) == sheet.row_of(j);
+    EXPECT_GE(row + across, last);  // a row's own edges with those that lead on from the next
+    last = row + across;
   }
-  EXPECT_EQ(last, 7u);
+  EXPECT_EQ(last, 8u);
   EXPECT_LE(count_runs(sheet.edges), 8u * 7);  // a particle has at most six edges, four of them in one band
 }
 
@@ -96,6 +96,24 @@ TEST(EdgeOrder, SlotsKeepEdgesThatMeetInOrderAndAreNearlyFull) {
   }
 }
 
+TEST(EdgeOrder, RunsRarelyWaitForTheOneBefore) {
+  Sheet sheet(5, 16);
+  order_edges(80, sheet.first_row(), sheet.edges);
+  const std::vector<std::uint32_t> slots = slots_of(80, sheet.edges, 8);
+  std::set<std::uint32_t> before;
+  std::size_t waiting = 0;
+  for (std::size_t begin = 0; begin < slots.size(); begin += 8) {
+    std::set<std::uint32_t> met;
+    for (std::size_t s = begin; s < begin + 8; ++s) {
+      if (slots[s] != kEmptySlot) met.insert(sheet.edges[slots[s]].begin(), sheet.edges[slots[s]].end());
+    }
+    const auto is_met = [&](std::uint32_t i) { return met.contains(i); };
+    waiting += std::any_of(before.begin(), before.end(), is_met) ? 1 : 0;
+    before = met;
+  }
+  EXPECT_LT(waiting, slots.size() / 8 * 4 / 5) << slots.size() / 8;
+}
+
 TEST(EdgeOrder, WithNowhereToBeginFewRunsTakeTheWholeSheet) {
   Sheet sheet(16, 16);
   order_edges(256, {}, sheet.edges);
@@ -118,8 +136,8 @@ TEST(EdgeOrder, AFanOfAHundredAndLoosePartsAreTakenToo) {
   const std::uint32_t pins[] = {3};
   order_edges(103, pins, edges);
   EXPECT_EQ(edges.size(), 101u);
-  EXPECT_EQ(edges[0], (EdgeEnds{101, 102}));  // of a part without a pin
-  EXPECT_EQ(edges[1], (EdgeEnds{0, 3}));
+  EXPECT_EQ(edges[0], (EdgeEnds{0, 3}));
+  EXPECT_TRUE(std::ranges::count(edges, EdgeEnds{101, 102}) == 1);  // of a part without a pin
   EXPECT_EQ(std::set(edges.begin(), edges.end()).size(), 101u);
 }
 

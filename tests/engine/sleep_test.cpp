@@ -97,7 +97,9 @@ TEST(Sleep, LayersWakeThoseOverThem) {
   s.layer = 1, s.sleep_speed = 0.05f;
   must(call::cloth_set(scene, scene.id, &s));
   s.layer = 2, s.thickness = 0.05f;
-  scene.cloth(scene.sheet(4), s);
+  const pleat_cloth over = scene.cloth(scene.sheet(4), s);
+  const float apart[] = {-0.5f, 0, -0.56f, 0.5f, 0, -0.56f};  // with room for its thickness
+  must(call::cloth_move_pins(scene, over, apart, 0, 2));
   for (int i = 0; i < 1800 && scene.stats().sleeping < 2; ++i) scene.step();
   ASSERT_EQ(scene.stats().sleeping, 2u);
   scene.pins[1] += 1e-3f;
