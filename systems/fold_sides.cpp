@@ -50,13 +50,13 @@ PLEAT_KERNEL void span_springs(const FoldSides& s) {
   const Garment& g = *s.garment;
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     FoldSprings& springs = s.choices->springs[f / kLanes];
-    Vec4Lanes middle[3];
-    Vec3Lanes direction[3];
+    const auto edge = [&](std::size_t k) { return g.face_edge[k].data() + f; };
+    const auto middle_of = [&](std::size_t k) { return gather(s.choices->middle.data(), edge(k)); };
+    const auto direction_of = [&](std::size_t k) { return gather(s.choices->direction.data(), edge(k)).vector; };
+    const Vec4Lanes middle[3] = {middle_of(0), middle_of(1), middle_of(2)};
+    const Vec3Lanes direction[3] = {direction_of(0), direction_of(1), direction_of(2)};
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t* edge = g.face_edge[k].data() + f;
-      middle[k] = gather(s.choices->middle.data(), edge);
-      direction[k] = gather(s.choices->direction.data(), edge).vector;
-      springs.up[k] = gather(s.choices->up.data(), edge), springs.down[k] = gather(s.choices->down.data(), edge);
+      springs.up[k] = gather(s.choices->up.data(), edge(k)), springs.down[k] = gather(s.choices->down.data(), edge(k));
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3, across = (k + 2) % 3;

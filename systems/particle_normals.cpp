@@ -39,12 +39,10 @@ PLEAT_KERNEL void sum_normals(const ParticleNormals& s) {
   const Garment& g = *s.garment;
   std::fill_n(s.sum, g.normal_count, Vec4{});
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
-    Vec3Lanes x[3];
-    Lanes rest[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = gather(s.position, g.face_particle[k].data() + f);
-      rest[k] = gather(g.edge_rest_length.data(), g.face_edge[k].data() + f);
-    }
+    const auto position = [&](std::size_t k) { return gather(s.position, g.face_particle[k].data() + f); };
+    const auto length = [&](std::size_t k) { return gather(g.edge_rest_length.data(), g.face_edge[k].data() + f); };
+    const Vec3Lanes x[3] = {position(0), position(1), position(2)};
+    const Lanes rest[3] = {length(0), length(1), length(2)};
     const Vec3Lanes face = cross(x[1] - x[0], x[2] - x[0]);
     const std::array<Lanes, 3> share = weighting == Weighting::kForce
                                            ? force_shares(x, face, rest, g.mean_edge_length)
