@@ -12,7 +12,7 @@ struct EdgeBlock {
   Lanes target;            // m, length of the curve at rest
 
   /// Edges from `begin` on, and the padding of g's columns where they end.
-  EdgeBlock(const Garment& g, ConstVec3View position, ConstVec3View normal, std::uint32_t begin)
+  PLEAT_KERNEL EdgeBlock(const Garment& g, ConstVec3View position, ConstVec3View normal, std::uint32_t begin)
       : a(gather(position, g.edge_particle[0].data() + begin)),
         b(gather(position, g.edge_particle[1].data() + begin)),
         na(gather(normal, g.edge_normal[0].data() + begin)),

@@ -1,6 +1,6 @@
 // Eight floats that a kernel works on at once, and as an element of Vec3T eight vectors. Arithmetic and comparison are
 // the compiler's own, lane by lane: the bits do not depend on how wide the processor is. `mask ? a : b` chooses by
-// lane.
+// lane. All of it is inlined: a call from a kernel compiled for wider vectors would pass lanes in other registers.
 #pragma once
 
 #include <bit>
@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "components/vec4.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -18,11 +19,11 @@ using LaneMask = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::in
 using Vec3Lanes = Vec3T<Lanes>;
 using Four = float __attribute__((vector_size(4 * sizeof(float))));
 
-inline Lanes min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-inline Lanes abs(const Lanes& a) { return a < 0.0f ? -a : a; }
-inline Lanes clamped(const Lanes& t) { return min(max(t, Lanes{}), Lanes{} + 1.0f); }
-inline Lanes sqrt(const Lanes& a) {
+PLEAT_KERNEL Lanes min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+PLEAT_KERNEL Lanes max(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+PLEAT_KERNEL Lanes abs(const Lanes& a) { return a < 0.0f ? -a : a; }
+PLEAT_KERNEL Lanes clamped(const Lanes& t) { return min(max(t, Lanes{}), Lanes{} + 1.0f); }
+PLEAT_KERNEL Lanes sqrt(const Lanes& a) {
   Lanes root;
   for (std::size_t k = 0; k < kLanes; ++k) root[k] = std::sqrt(a[k]);
   return root;
@@ -30,12 +31,12 @@ inline Lanes sqrt(const Lanes& a) {
 /// The same of one float, so that a kernel's source can be for both.
 constexpr float min(float a, float b) { return a < b ? a : b; }
 constexpr float max(float a, float b) { return a > b ? a : b; }
-inline float sqrt(float a) { return std::sqrt(a); }
+PLEAT_KERNEL float sqrt(float a) { return std::sqrt(a); }
 
-inline Lanes length(const Vec3Lanes& a) { return sqrt(dot(a, a)); }
+PLEAT_KERNEL Lanes length(const Vec3Lanes& a) { return sqrt(dot(a, a)); }
 
 /// A bit a lane, the first lane's lowest.
-inline std::uint8_t bits(const LaneMask& mask) {
+PLEAT_KERNEL std::uint8_t bits(const LaneMask& mask) {
 #ifdef __SSE__
   Four halves[2];
   std::memcpy(halves, &mask, sizeof halves);
@@ -47,64 +48,64 @@ inline std::uint8_t bits(const LaneMask& mask) {
   return static_cast<std::uint8_t>(sum);
 #endif
 }
-inline bool any(const LaneMask& mask) { return bits(mask) != 0; }
+PLEAT_KERNEL bool any(const LaneMask& mask) { return bits(mask) != 0; }
 /// How many lanes of a mask are set.
-inline std::uint32_t count(const LaneMask& mask) { return static_cast<std::uint32_t>(std::popcount(bits(mask))); }
+PLEAT_KERNEL std::uint32_t count(const LaneMask& mask) { return static_cast<std::uint32_t>(std::popcount(bits(mask))); }
 /// The same of one, so that a kernel's source can be for both.
-inline bool any(bool mask) { return mask; }
-inline std::uint32_t count(bool mask) { return mask ? 1 : 0; }
+PLEAT_KERNEL bool any(bool mask) { return mask; }
+PLEAT_KERNEL std::uint32_t count(bool mask) { return mask ? 1 : 0; }
 
-inline float largest(const Lanes& a) {
+PLEAT_KERNEL float largest(const Lanes& a) {
   float found = a[0];
   for (std::size_t k = 1; k < kLanes; ++k) found = a[k] > found ? a[k] : found;
   return found;
 }
 
-inline Lanes all(float value) { return Lanes{} + value; }
-inline Vec3Lanes all(const Vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
+PLEAT_KERNEL Lanes all(float value) { return Lanes{} + value; }
+PLEAT_KERNEL Vec3Lanes all(const Vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
 
-inline Vec3 choose(bool mask, const Vec3& a, const Vec3& b) { return mask ? a : b; }
-inline Vec3Lanes choose(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lanes& b) {
+PLEAT_KERNEL Vec3 choose(bool mask, const Vec3& a, const Vec3& b) { return mask ? a : b; }
+PLEAT_KERNEL Vec3Lanes choose(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lanes& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 /// Unit vectors, or `otherwise` where they are too short to have a direction.
-inline Vec3Lanes normalized_or(const Vec3Lanes& a, const Vec3Lanes& otherwise) {
+PLEAT_KERNEL Vec3Lanes normalized_or(const Vec3Lanes& a, const Vec3Lanes& otherwise) {
   const Lanes l = length(a);
   const LaneMask good = l > 1e-12f;
   return choose(good, a * (1.0f / (good ? l : all(1.0f))), otherwise);
 }
 
 /// Neighbours in a column, which ends on whole lanes.
-inline Lanes load(const float* from) {
+PLEAT_KERNEL Lanes load(const float* from) {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
-inline Vec3Lanes load(ConstVec3View from, std::size_t begin) {
+PLEAT_KERNEL Vec3Lanes load(ConstVec3View from, std::size_t begin) {
   return {load(from.x + begin), load(from.y + begin), load(from.z + begin)};
 }
-inline void store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
-inline void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin) {
+PLEAT_KERNEL void store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
+PLEAT_KERNEL void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin) {
   store(lanes.x, to.x + begin), store(lanes.y, to.y + begin), store(lanes.z, to.z + begin);
 }
 /// The first `count` of them, where what comes next is somebody else's.
-inline void store(const Lanes& lanes, float* to, std::uint32_t count) {
+PLEAT_KERNEL void store(const Lanes& lanes, float* to, std::uint32_t count) {
   if (count >= kLanes) return store(lanes, to);
   for (std::uint32_t k = 0; k < count; ++k) to[k] = lanes[k];
 }
-inline void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin, std::uint32_t count) {
+PLEAT_KERNEL void store(const Vec3Lanes& lanes, const Vec3View& to, std::size_t begin, std::uint32_t count) {
   store(lanes.x, to.x + begin, count), store(lanes.y, to.y + begin, count), store(lanes.z, to.z + begin, count);
 }
 
 /// The first `count` of them.
-inline LaneMask first_lanes(std::size_t count) {
+PLEAT_KERNEL LaneMask first_lanes(std::size_t count) {
   constexpr Lanes kPlace{0, 1, 2, 3, 4, 5, 6, 7};
   return kPlace < static_cast<float>(count);
 }
 
 /// The largest value(lanes from i on) of count, or 0; lanes from `count` on do not count.
 template <class Value>
-inline float largest(std::size_t count, const Value& value) {
+PLEAT_KERNEL float largest(std::size_t count, const Value& value) {
   Lanes most{};
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) most = max(value(i), most);
@@ -113,29 +114,25 @@ inline float largest(std::size_t count, const Value& value) {
 }
 
 /// from[index[0]], from[index[1]], ...
-inline Lanes gather(const float* from, const std::uint32_t* index) {
+PLEAT_KERNEL Lanes gather(const float* from, const std::uint32_t* index) {
   return Lanes{from[index[0]], from[index[1]], from[index[2]], from[index[3]],
                from[index[4]], from[index[5]], from[index[6]], from[index[7]]};
 }
-inline Vec3Lanes gather(ConstVec3View from, const std::uint32_t* index) {
+PLEAT_KERNEL Vec3Lanes gather(ConstVec3View from, const std::uint32_t* index) {
   return {gather(from.x, index), gather(from.y, index), gather(from.z, index)};
 }
 
-/// to[index(k)] = lane k, for the first `count` lanes.
-template <class Index>
-inline void scatter(const Vec3Lanes& lanes, std::uint32_t count, const Vec3View& to, const Index& index) {
-  for (std::uint32_t k = 0; k < count; ++k) to.set(index(k), {lanes.x[k], lanes.y[k], lanes.z[k]});
-}
 /// to[index[k]] += lane k, one after the other, for the first `count` lanes.
-inline void scatter_add(const Lanes& lanes, const std::uint32_t* index, std::uint32_t count, float* to) {
+PLEAT_KERNEL void scatter_add(const Lanes& lanes, const std::uint32_t* index, std::uint32_t count, float* to) {
   for (std::uint32_t k = 0; k < count; ++k) to[index[k]] += lanes[k];
 }
-inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, const Vec3View& to) {
+PLEAT_KERNEL void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count,
+                              const Vec3View& to) {
   for (std::uint32_t k = 0; k < count; ++k) to.add(index[k], {lanes.x[k], lanes.y[k], lanes.z[k]});
 }
 
 /// Four lanes of four floats each, beside each other, become four times the same place of all.
-inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
+PLEAT_KERNEL void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
   const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13);
   const Lanes low23 = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13);
   const Lanes high01 = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15);
@@ -149,11 +146,11 @@ inline void transpose(const Lanes (&pairs)[4], Lanes (&places)[4]) {
 using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_alias));
 
 /// By value, not by memcpy: after that compilers go through the stack for a single number of the four.
-inline Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
-inline void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
+PLEAT_KERNEL Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
+PLEAT_KERNEL void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
 
 /// Eight vectors, and what each carries besides, each with its components beside each other.
-inline void split(const Vec3Lanes& vector, const Lanes& w, Four (&each)[kLanes]) {
+PLEAT_KERNEL void split(const Vec3Lanes& vector, const Lanes& w, Four (&each)[kLanes]) {
   const Lanes places[4] = {vector.x, vector.y, vector.z, w};
   Lanes pairs[4];
   transpose(places, pairs);
@@ -162,7 +159,7 @@ inline void split(const Vec3Lanes& vector, const Lanes& w, Four (&each)[kLanes])
     each[k + 4] = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
   }
 }
-inline void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
+PLEAT_KERNEL void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {
   Four each[kLanes];
   split(vector, w, each);
   for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[k]);
@@ -174,7 +171,7 @@ struct Vec4Lanes {
 };
 
 /// As pack left them.
-inline Vec4Lanes load(const Vec4* from) {
+PLEAT_KERNEL Vec4Lanes load(const Vec4* from) {
   Lanes pairs[4], places[4];
   for (std::size_t k = 0; k < 4; ++k) {
     pairs[k] = __builtin_shufflevector(load_four(from[k]), load_four(from[k + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -183,16 +180,16 @@ inline Vec4Lanes load(const Vec4* from) {
   return {{places[0], places[1], places[2]}, places[3]};
 }
 /// Columns as vectors with their components beside each other. Whole lanes: reads and writes into the padding of all.
-inline void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
+PLEAT_KERNEL void pack(ConstVec3View from, const float* w, std::size_t count, Vec4* to) {
   for (std::size_t i = 0; i < count; i += kLanes) pack(load(from, i), w == nullptr ? Lanes{} : load(w + i), to + i);
 }
-inline void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
+PLEAT_KERNEL void unpack(const Vec4* from, std::size_t count, const Vec3View& to) {
   for (std::size_t i = 0; i < count; i += kLanes) store(load(from + i).vector, to, i);
 }
 
 /// What forces on edges and hinges read and add to, as vectors; unpack(packed.force) brings them back.
-inline void pack_state(ConstVec3View position, const float* inverse_mass, ConstVec3View velocity, ConstVec3View force,
-                       std::size_t count, Vec4Columns& packed) {
+PLEAT_KERNEL void pack_state(ConstVec3View position, const float* inverse_mass, ConstVec3View velocity,
+                             ConstVec3View force, std::size_t count, Vec4Columns& packed) {
   for (std::size_t i = 0; i < count; i += kLanes) {
     Four x[kLanes], v[kLanes];
     split(load(position, i), load(inverse_mass + i), x);
@@ -204,7 +201,7 @@ inline void pack_state(ConstVec3View position, const float* inverse_mass, ConstV
 }
 
 /// from[index[0]], from[index[1]], ...: a load for each, where three columns need three.
-inline Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
+PLEAT_KERNEL Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
   Lanes pairs[4], places[4];
   for (std::size_t k = 0; k < 4; ++k) {
     pairs[k] =
@@ -222,7 +219,7 @@ struct MotionLanes {
 using LanesInMemory = float __attribute__((vector_size(kLanes * sizeof(float)), may_alias));
 
 /// from[index[0]], from[index[1]], ...
-inline MotionLanes gather(const Motion* from, const std::uint32_t* index) {
+PLEAT_KERNEL MotionLanes gather(const Motion* from, const std::uint32_t* index) {
   Lanes motions[2][4], low[4], high[4];  // of the first four and of the last
   for (std::size_t k = 0; k < kLanes; ++k) {
     motions[k / 4][k % 4] = reinterpret_cast<const LanesInMemory&>(from[index[k]]);
@@ -235,13 +232,13 @@ inline MotionLanes gather(const Motion* from, const std::uint32_t* index) {
 }
 
 /// to[index[k]] = lane k, one after the other.
-inline void scatter(const Vec3Lanes& lanes, const Lanes& w, const std::uint32_t* index, Vec4* to) {
+PLEAT_KERNEL void scatter(const Vec3Lanes& lanes, const Lanes& w, const std::uint32_t* index, Vec4* to) {
   Four each[kLanes];
   split(lanes, w, each);
   for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[index[k]]);
 }
 /// to[index[k]] += lane k, one after the other, for the first `count` lanes.
-inline void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {
+PLEAT_KERNEL void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {
   Four each[kLanes];
   split(lanes, Lanes{}, each);
   const auto add = [&](std::uint32_t k) { store(load_four(to[index[k]]) + each[k], to[index[k]]); };

@@ -26,10 +26,10 @@ struct PnEdgeT {
   Vec3T<T> a, d, u, v;
 
   /// a, b: the ends, m; na, nb: their unit normals.
-  PnEdgeT(const Vec3T<T>& a_, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb)
+  PLEAT_KERNEL PnEdgeT(const Vec3T<T>& a_, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb)
       : a(a_), d(b - a_), u(na * dot(d, na)), v(nb * -dot(d, nb)) {}
 
-  Vec3T<T> point(float t) const { return a + d * t - (u * (1.0f - t) + v * t) * (t * (1.0f - t)); }
+  PLEAT_KERNEL Vec3T<T> point(float t) const { return a + d * t - (u * (1.0f - t) + v * t) * (t * (1.0f - t)); }
   Vec3T<T> middle() const { return a + d * 0.5f - (u + v) * 0.125f; }
   /// Along the tangent in the middle; not unit.
   Vec3T<T> middle_tangent() const { return d * 4.0f + (u - v); }

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "components/vec3.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -30,7 +31,7 @@ struct PnTriangleT {
   Vec3T<T> corner[3];
   Vec3T<T> bend[6];  // w_kl N_k and w_lk N_l of side k = 0, 1, 2
 
-  PnTriangleT(const Vec3T<T> (&p)[3], const Vec3T<T> (&n)[3]) : corner{p[0], p[1], p[2]} {
+  PLEAT_KERNEL PnTriangleT(const Vec3T<T> (&p)[3], const Vec3T<T> (&n)[3]) : corner{p[0], p[1], p[2]} {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       const Vec3T<T> side = p[l] - p[k];
@@ -40,7 +41,7 @@ struct PnTriangleT {
   }
 
   /// The point at barycentrics p with their weights = bend_weights(p).
-  Vec3T<T> point(const float (&p)[3], const std::array<float, 6>& weights) const {
+  PLEAT_KERNEL Vec3T<T> point(const float (&p)[3], const std::array<float, 6>& weights) const {
     Vec3T<T> x = corner[0] * p[0] + corner[1] * p[1] + corner[2] * p[2];
     for (std::size_t i = 0; i < 6; ++i) x -= bend[i] * weights[i];
     return x;

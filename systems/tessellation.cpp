@@ -4,33 +4,39 @@
 
 #include "components/arc_pn.h"
 #include "components/edge_block.h"
+#include "components/lane_rows.h"
 #include "components/projected_triangle.h"
 #include "components/wide.h"
 
 namespace pleat {
 namespace {
 
+std::uint32_t inner_count(const TessellationPattern& pattern) {
+  return static_cast<std::uint32_t>(pattern.inner.size());
+}
+
 PLEAT_KERNEL void draw_flat(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
+  LaneRows rows;
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - e);
     const Vec3Lanes a = gather(s.position, g.edge_particle[0].data() + e),
                     d = gather(s.position, g.edge_particle[1].data() + e) - a;
-    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      scatter(a + d * pattern.along_edge(step), count, s.drawn_position,
-              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
+    for (std::uint32_t i = 0; i < pattern.segments - 1; ++i) {
+      rows.set(i, a + d * pattern.along_edge(i + 1));
     }
+    rows.store_to(s.drawn_position, pattern.edge_vertex(e, 1), pattern.segments - 1, count);
   }
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - f);
-    Vec3Lanes corner[3];
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = gather(s.position, g.face_particle[k].data() + f);
-    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
+    const auto position = [&](std::size_t k) { return gather(s.position, g.face_particle[k].data() + f); };
+    const Vec3Lanes corner[3] = {position(0), position(1), position(2)};
+    for (std::uint32_t i = 0; i < inner_count(pattern); ++i) {
       const InnerPoint& q = pattern.inner[i];
-      scatter(corner[0] * q.face[0] + corner[1] * q.face[1] + corner[2] * q.face[2], count, s.drawn_position,
-              [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
+      rows.set(i, corner[0] * q.face[0] + corner[1] * q.face[1] + corner[2] * q.face[2]);
     }
+    rows.store_to(s.drawn_position, pattern.face_vertex(f, 0), inner_count(pattern), count);
   }
 }
 
@@ -49,17 +55,18 @@ template <SurfaceMode mode>
 PLEAT_KERNEL void draw_curved_edges(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
+  LaneRows rows;
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - e);
     const EdgeBlock block(g, s.position, s.normal, e);
     const PnEdgeT<Lanes> edge = curved_edge<mode>(block.a, block.b, block.na, block.nb);
     Vec3Lanes moved{};
     if constexpr (mode == SurfaceMode::kPleat) moved = load(s.fold, e) * load(s.fold_height + e);
-    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      const float t = pattern.along_edge(step);
-      scatter(edge.point(t) + moved * fold_shape(t), count, s.drawn_position,
-              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
+    for (std::uint32_t i = 0; i < pattern.segments - 1; ++i) {
+      const float t = pattern.along_edge(i + 1);
+      rows.set(i, edge.point(t) + moved * fold_shape(t));
     }
+    rows.store_to(s.drawn_position, pattern.edge_vertex(e, 1), pattern.segments - 1, count);
   }
 }
 
@@ -85,31 +92,34 @@ template <SurfaceMode mode>
 PLEAT_KERNEL void draw_curved_faces(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
+  LaneRows rows;
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - f);
-    Vec3Lanes corner[3], normal[3], moved[3]{};
-    LaneMask folds{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = gather(s.position, g.face_particle[k].data() + f);
-      normal[k] = gather(s.normal, g.face_normal[k].data() + f);
-      if constexpr (mode == SurfaceMode::kPleat) {
-        const Lanes height = gather(s.fold_height, g.face_edge[k].data() + f);
-        moved[k] = gather(s.fold, g.face_edge[k].data() + f) * height;
-        folds |= height != 0.0f;
-      }
-    }
+    const auto position = [&](std::size_t k) { return gather(s.position, g.face_particle[k].data() + f); };
+    const auto normal_at = [&](std::size_t k) { return gather(s.normal, g.face_normal[k].data() + f); };
+    const auto height_of = [&](std::size_t k) {
+      return mode == SurfaceMode::kPleat ? gather(s.fold_height, g.face_edge[k].data() + f) : Lanes{};
+    };
+    const auto fold = [&](std::size_t k, const Lanes& h) {
+      return mode == SurfaceMode::kPleat ? gather(s.fold, g.face_edge[k].data() + f) * h : Vec3Lanes{};
+    };
+    const Vec3Lanes corner[3] = {position(0), position(1), position(2)};
+    const Vec3Lanes normal[3] = {normal_at(0), normal_at(1), normal_at(2)};
+    const Lanes height[3] = {height_of(0), height_of(1), height_of(2)};
+    const Vec3Lanes moved[3] = {fold(0, height[0]), fold(1, height[1]), fold(2, height[2])};
+    const LaneMask folds = (height[0] != 0.0f) | (height[1] != 0.0f) | (height[2] != 0.0f);
     PnTriangleT<Lanes> face =
         mode == SurfaceMode::kArcPn ? arc_triangle(corner, normal) : PnTriangleT<Lanes>(corner, normal);
     if (g.crease_count != 0) {
       for (std::uint32_t lane = 0; lane < count; ++lane) bend_along_creases<mode>(s, f + lane, lane, face.bend);
     }
     const bool any_fold = any(folds);
-    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
+    for (std::uint32_t i = 0; i < inner_count(pattern); ++i) {
       const InnerPoint& q = pattern.inner[i];
-      Vec3Lanes x = face.point(q.face, q.bend);
-      if (any_fold) x += moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2];
-      scatter(x, count, s.drawn_position, [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
+      const Vec3Lanes x = face.point(q.face, q.bend);
+      rows.set(i, any_fold ? x + (moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2]) : x);
     }
+    rows.store_to(s.drawn_position, pattern.face_vertex(f, 0), inner_count(pattern), count);
   }
 }
 
@@ -128,6 +138,7 @@ template <LiftedPoint point>
 PLEAT_KERNEL void lift(const Tessellation& s) {
   const Garment& g = *s.garment;
   const TessellationPattern& pattern = *s.pattern;
+  LaneRows rows;
   Vec3Lanes p[3], n[3];
   const auto gather_corner = [&](std::size_t corner, const std::uint32_t* index) {
     p[corner] = gather(s.position, index), n[corner] = gather(s.normal, index);
@@ -135,19 +146,19 @@ PLEAT_KERNEL void lift(const Tessellation& s) {
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - e);
     for (std::size_t k = 0; k < 3; ++k) gather_corner(k, g.edge_particle[k % 2].data() + e);  // the third has weight 0
-    for (std::uint32_t step = 1; step < pattern.segments; ++step) {
-      const float t = pattern.along_edge(step);
-      scatter(point(p, n, {1.0f - t, t, 0.0f}), count, s.drawn_position,
-              [&](std::uint32_t k) { return pattern.edge_vertex(e + k, step); });
+    for (std::uint32_t i = 0; i < pattern.segments - 1; ++i) {
+      const float t = pattern.along_edge(i + 1);
+      rows.set(i, point(p, n, {1.0f - t, t, 0.0f}));
     }
+    rows.store_to(s.drawn_position, pattern.edge_vertex(e, 1), pattern.segments - 1, count);
   }
   for (std::uint32_t f = 0; f < g.face_count; f += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.face_count - f);
     for (std::size_t k = 0; k < 3; ++k) gather_corner(k, g.face_particle[k].data() + f);
-    for (std::uint32_t i = 0; i < pattern.inner.size(); ++i) {
-      scatter(point(p, n, pattern.inner[i].face), count, s.drawn_position,
-              [&](std::uint32_t k) { return pattern.face_vertex(f + k, i); });
+    for (std::uint32_t i = 0; i < inner_count(pattern); ++i) {
+      rows.set(i, point(p, n, pattern.inner[i].face));
     }
+    rows.store_to(s.drawn_position, pattern.face_vertex(f, 0), inner_count(pattern), count);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <memory_resource>
 #include <vector>
 
+#include "components/lane_rows.h"
+
 namespace pleat {
 namespace {
 
@@ -90,6 +92,29 @@ TEST(Lanes, ArithmeticOfALaneIsThatOfAFloat) {
     const float x = kCounting[k];
     EXPECT_EQ(root[k], std::sqrt(x));
     EXPECT_EQ(limited[k], std::min(std::max(0.3f * x - 0.5f, 0.0f), 1.0f));
+  }
+}
+
+TEST(LaneRows, StoresEachLaneAsItsRowAndNothingBehind) {
+  for (std::uint32_t length = 1; length <= 9; ++length) {
+    for (std::uint32_t count = 1; count <= kLanes; ++count) {
+      LaneRows rows;
+      for (std::uint32_t i = 0; i < length; ++i) {
+        const float place = 100.0f * static_cast<float>(i);
+        const Lanes lane{0, 1, 2, 3, 4, 5, 6, 7};
+        rows.set(i, {lane + place, lane + place + 0.25f, lane + place + 0.5f});
+      }
+      std::vector<float> x(2 + length * kLanes + 4, -1.0f), y = x, z = x;
+      rows.store_to({x.data(), y.data(), z.data()}, 2, length, count);
+      for (std::uint32_t j = 0; j < x.size(); ++j) {
+        const std::uint32_t k = (j - 2) / length, i = (j - 2) % length;
+        const bool inside = j >= 2 && k < count;
+        const float expected = 100.0f * static_cast<float>(i) + static_cast<float>(k);
+        EXPECT_EQ(x[j], inside ? expected : -1.0f);
+        EXPECT_EQ(y[j], inside ? expected + 0.25f : -1.0f);
+        EXPECT_EQ(z[j], inside ? expected + 0.5f : -1.0f);
+      }
+    }
   }
 }
 
