@@ -39,7 +39,7 @@ LengthError edge_error(const demo::TriangleMesh& garment, std::span<const float>
     }
   }
   std::ranges::sort(edges);
-  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   std::vector<uint32_t> ends;
   std::vector<float> rest;
   for (const auto& [a, b] : edges) {

@@ -23,8 +23,7 @@ std::vector<std::pair<uint32_t, uint32_t>> edges_of(std::span<const uint32_t> tr
     for (size_t k = 0; k < 3; ++k) edges.push_back(std::minmax({triangles[t + k], triangles[t + (k + 1) % 3]}));
   }
   std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges);
-  edges.erase(repeated.begin(), repeated.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
