@@ -17,7 +17,7 @@ struct ContactRow {
   float offset;         // d, m
   Vec3 body_step;       // motion of the touched point of the body over the substep, m
   float friction;       // Coulomb coefficient of the pair
-  float share[4];       // of a shift of the point, each particle's: w_k b_k / (sum of w b^2), or less near pins
+  float share[4];       // of a shift of the point, each particle's: w_k b_k / (sum of w b^2), or less (contact_row.h)
   float push;           // m, total distance pushed in this substep's sweeps
   float rubbed;         // m, what friction has taken back of sliding in this substep
 

@@ -80,6 +80,7 @@ void add_slots(const std::vector<EdgeEnds>& all, Garment& g) {
   }
   const std::vector<std::uint32_t> slots = slots_of(g.particle_count, edges, kLanes);
   g.slot_count = static_cast<std::uint32_t>(slots.size());
+  g.slotted_edge_count = static_cast<std::uint32_t>(edges.size());
   for (auto& column : g.slot_particle) column.resize(g.slot_count);
   g.slot_rest_length.resize(g.slot_count);
   for (std::size_t s = 0; s < slots.size(); ++s) {

@@ -40,10 +40,10 @@ struct Garment {
   Column<float> edge_rest_length;        // m
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
 
-  // The same edges in slots (S), runs of kLanes that share no particle and are solved at once; edges that meet are in
-  // order. Empty slots are edges of 1 m between two places behind the particles of
+  // Those of the edges that have an end to move, in slots (S): runs of kLanes that share no particle and are solved at
+  // once; edges that meet are in order. Empty slots are edges of 1 m between two places behind the particles of
   // Vec4Columns, whose inverse mass is 0, so that lanes need no mask.
-  std::uint32_t slot_count = 0;
+  std::uint32_t slot_count = 0, slotted_edge_count = 0;
   Column<std::uint32_t> slot_particle[2];
   Column<float> slot_rest_length;  // m
   std::uint32_t empty_place() const { return static_cast<std::uint32_t>(padded(particle_count)); }

@@ -6,7 +6,18 @@
 
 #include <algorithm>
 
-#if defined(__x86_64__) && defined(__GNUC__)
+// Clang's flatten takes in what a kernel calls but not what that calls in turn: where little is inlined such a function
+// would return its lanes as the baseline does, and AVX code misread them. There kernels stay at the baseline.
+#if defined(__clang__)
+#define PLEAT_SANITIZED                                                                                      \
+  (__has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer) || \
+   __has_feature(undefined_behavior_sanitizer))
+#if !defined(__OPTIMIZE__) || PLEAT_SANITIZED
+#define PLEAT_BASELINE_ONLY
+#endif
+#endif
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(PLEAT_BASELINE_ONLY)
 #define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten))
 #ifdef __clang__
 #define PLEAT_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2"), flatten))
@@ -27,7 +38,7 @@ enum class VectorSet { kBaseline, kAvx2, kAvx512 };  // a processor that has one
 inline constexpr VectorSet kVectorSets[] = {VectorSet::kBaseline, VectorSet::kAvx2, VectorSet::kAvx512};
 
 inline VectorSet vectors_of_processor() {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(PLEAT_BASELINE_ONLY)
   const auto has_all = [](auto... found) { return ((found != 0) && ...); };
   if (has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"), __builtin_cpu_supports("avx512dq"),
               __builtin_cpu_supports("avx512bw"), __builtin_cpu_supports("bmi2"))) {

@@ -8,7 +8,8 @@
 //     stage                       forces, then integration; Runge-Kutta repeats it four times
 //     contact                     contact rows at the predicted positions
 //     sweep                       repeated: strain limit and contact converge together
-//     substep end                 contact has the last word; velocities
+//     friction                    what slid is held back; contact has the last word
+//     substep end                 velocities, and nothing that is not finite
 //     check                       once the substeps are done; where it fails they begin anew, see cloth_tick.h
 //     frame end                   the drawn surface
 #pragma once

@@ -8,7 +8,8 @@
 namespace pleat {
 
 /// F_i -= rate m_i v_i. The rate is held below 0.5 / dt.
-/// Reads:  mass (P) kg; velocity (P) m/s.  Writes: force (P) N, added to.  Cost: O(P).  Errors: none.
+/// Reads:  mass (P) kg; velocity (P) m/s.  Writes: force (P) N, added to; columns with their padding.
+/// Cost:   O(P).  Errors: none.
 struct AirDamping {
   std::size_t particle_count = 0;
   const float* mass = nullptr;

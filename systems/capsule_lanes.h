@@ -14,7 +14,7 @@ namespace pleat {
 /// m, that the distances of this file may be off by where an edge and a core are nearly parallel.
 inline constexpr float kLaneRounding = 1e-3f;
 
-/// A capsule's core, the same in all lanes, and how far from it a feature is near.
+/// A capsule's core, as a rule the same in all lanes, and how far from it a feature is near.
 struct Core {
   Vec3Lanes a, b, axis;
   Lanes axis2, inverse;  // m2, 1/m2 or zero

@@ -24,9 +24,11 @@ void CollisionResponse::run(Stats& stats) const {
       shift_contact(row, row.normal * depth, position);
       continue;
     }
-    ContactRow whole = row;
-    for (float& share : whole.share) share = share > 0.0f ? 1.0f : 0.0f;
-    shift_contact(whole, row.normal * depth, position);
+    const Four shift{row.normal.x * depth, row.normal.y * depth, row.normal.z * depth, 0.0f};
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+      Vec4& at = position[row.particle[k]];
+      if (row.share[k] > 0.0f) store(load_four(at) + shift, at);
+    }
   }
 }
 

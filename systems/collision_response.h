@@ -11,7 +11,8 @@ namespace pleat {
 enum class FaceResponse : std::uint32_t { kWeighted = 0, kWhole = 1 };
 
 /// One pass over the rows, in order: where C = d - n . sum of b x > 0 the row pushes.
-///   weighted: x_i += w_i b_i / (sum of w b^2) C n, so that the touching point comes to lie exactly on the plane;
+///   weighted: x_i += w_i b_i / (sum of w b^2) C n, so that the touching point comes to lie on the plane, or
+///             part of the way there where the row's shares are less (contact_row.h);
 ///   whole:    x_i += C n for all corners alike (M. Oshita, A. Makinouchi, 2001, figure 6d); pinned ones stay, and
 ///             rows of the cloth against itself stay weighted.
 /// Normals, weights and planes are fixed, so passes may be repeated and mixed with the strain limit's.

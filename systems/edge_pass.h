@@ -62,7 +62,7 @@ PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Colum
                        garment.slot_rest_length.data(),
                        way,
                        packed.data()};
-  if (set == VectorSet::kBaseline || count > kMostSlotsPerEdge * garment.edge_count) {
+  if (set == VectorSet::kBaseline || count > kMostSlotsPerEdge * garment.slotted_edge_count) {
     for (std::uint32_t s = 0; s < count; ++s) {
       if (in.particle[0][s] != empty) solve(EdgeSlot{in, s});
     }

@@ -7,11 +7,9 @@
 
 namespace pleat {
 
-/// way = x_j - x_i, from the first end of every edge to its second, in its slot, once for all passes of a substep that
-/// pull along it (pull_direction.h).
-/// Reads:  garment slots; previous (P) m: where the substep began
-/// Writes: way (S) m; packed, scratch
-/// Cost:   O(P + S), no allocation. Errors: none.
+/// way = x_j - x_i, from the first end of every edge to its second that has a slot, once for all passes of a substep
+/// that pull along it (pull_direction.h). Reads:  garment slots; previous (P) m: where the substep began Writes: way
+/// (S) m; packed, scratch Cost:   O(P + S), no allocation. Errors: none.
 struct EdgeWays {
   const Garment* garment = nullptr;
   ConstVec3View previous;

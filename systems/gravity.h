@@ -8,7 +8,7 @@
 namespace pleat {
 
 /// F_i += m_i g.
-/// Reads:  mass (P) kg.  Writes: force (P) N, added to.  Cost: O(P).  Errors: none.
+/// Reads:  mass (P) kg.  Writes: force (P) N, added to; columns with their padding.  Cost: O(P).  Errors: none.
 struct Gravity {
   std::size_t particle_count = 0;
   const float* mass = nullptr;

@@ -35,8 +35,7 @@ PLEAT_KERNEL Vec3 hold_all(const InnerFriction& in, const Law& law) {
     const Vec3Lanes pull = shortened(held + v * law.damping, most) * -load(in.mass + i);
     store(held, in.held, i, count);
     store(load(ConstVec3View(in.force), i) + pull, in.force, i, count);
-    constexpr Lanes kPlace{0, 1, 2, 3, 4, 5, 6, 7};
-    sum += choose(kPlace < static_cast<float>(count), pull, Vec3Lanes{});
+    sum += choose(first_lanes(count), pull, Vec3Lanes{});
   }
   Vec3 total;
   for (std::uint32_t k = 0; k < kLanes; ++k) total += Vec3{sum.x[k], sum.y[k], sum.z[k]};

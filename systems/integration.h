@@ -13,7 +13,8 @@
 namespace pleat {
 
 /// v' = v + dt w F;  x' = x + dt v'   (symplectic)     or     x' = x + dt v   (explicit).
-/// Reads:  inverse_mass (P) 1/kg; force (P) N.  Writes: position m, velocity m/s (P).  Cost: O(P).  Errors: none.
+/// Reads:  inverse_mass (P) 1/kg; force (P) N.  Writes: position m, velocity m/s (P); columns with their padding.
+/// Cost:   O(P).  Errors: none.
 struct EulerIntegration {
   std::size_t particle_count = 0;
   const float* inverse_mass = nullptr;

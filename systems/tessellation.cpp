@@ -11,6 +11,9 @@
 namespace pleat {
 namespace {
 
+static_assert((2 * kMaxTessellationLevel - 1) * (2 * kMaxTessellationLevel - 2) / 2 <= LaneRows::kMostPlaces,
+              "a face's inner vertices are a row");
+
 std::uint32_t inner_count(const TessellationPattern& pattern) {
   return static_cast<std::uint32_t>(pattern.inner.size());
 }

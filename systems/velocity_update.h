@@ -9,7 +9,8 @@ namespace pleat {
 
 /// v_i += (x_i - predicted_i) / dt. Without it the motion that a constraint took away would come back at the next step,
 /// and a hanging cloth would carry the velocity of free fall (the paper alters positions only; README says why not).
-/// Reads:  position, predicted (P) m; inverse_mass (P).  Writes: velocity (P) m/s.  Cost: O(P).  Errors: none.
+/// Reads:  position, predicted (P) m; inverse_mass (P).  Writes: velocity (P) m/s; columns with their padding.
+/// Cost:   O(P).  Errors: none.
 struct VelocityUpdate {
   std::size_t particle_count = 0;
   ConstVec3View position, predicted;

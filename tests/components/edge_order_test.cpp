@@ -96,7 +96,7 @@ TEST(EdgeOrder, SlotsKeepEdgesThatMeetInOrderAndAreNearlyFull) {
   }
 }
 
-TEST(EdgeOrder, RunsRarelyWaitForTheOneBefore) {
+TEST(EdgeOrder, ManyRunsOfARingNeedNotWaitForTheOneBefore) {
   Sheet sheet(5, 16);
   order_edges(80, sheet.first_row(), sheet.edges);
   const std::vector<std::uint32_t> slots = slots_of(80, sheet.edges, 8);

@@ -147,6 +147,25 @@ TEST(Step, EveryVectorSetGivesTheSameBits) {
   }
 }
 
+TEST(Step, ClothOfPinsOnlyGoesWhereTheyGo) {
+  Scene scene;
+  constexpr float kCorners[] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
+  constexpr std::uint32_t kAll[] = {0, 2, 1};
+  pleat_garment_def def;
+  must(call::garment_def_init(&def, sizeof def));
+  def.positions = kCorners, def.vertex_count = 3;
+  def.triangles = kAll, def.triangle_count = 1;
+  def.pins = kAll, def.pin_count = 3;
+  pleat_garment garment{};
+  must(call::garment_create(scene, &def, nullptr, &garment));
+  const pleat_cloth cloth = scene.cloth(garment);
+  constexpr float kHigher[] = {0, .1f, 0, 0, .1f, 1, 1, .1f, 0};  // in the order of the pins
+  must(call::cloth_move_pins(scene, cloth, kHigher, 0, 3));
+  scene.step();
+  const std::vector<float> x = scene.particles(cloth);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(x[3 * i + 1], 0.1f);
+}
+
 TEST(Step, ClothHangsFromItsPinsAtItsLength) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
