@@ -6,18 +6,16 @@
 
 #include <algorithm>
 
-// Clang's flatten takes in what a kernel calls but not what that calls in turn: where little is inlined such a function
-// would return its lanes as the baseline does, and AVX code misread them. There kernels stay at the baseline.
-#if defined(__clang__)
-#define PLEAT_SANITIZED                                                                                      \
-  (__has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer) || \
-   __has_feature(undefined_behavior_sanitizer))
-#if !defined(__OPTIMIZE__) || PLEAT_SANITIZED
-#define PLEAT_BASELINE_ONLY
+#if defined(__SANITIZE_ADDRESS__) || !defined(__OPTIMIZE__)
+#define PLEAT_CHECKED  // built to find mistakes, not to be fast
+#elif defined(__clang__)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(undefined_behavior_sanitizer)
+#define PLEAT_CHECKED
 #endif
 #endif
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(PLEAT_BASELINE_ONLY)
+#if defined(__x86_64__) && defined(__GNUC__)
 #define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten))
 #ifdef __clang__
 #define PLEAT_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2"), flatten))
@@ -37,16 +35,27 @@ namespace pleat {
 enum class VectorSet { kBaseline, kAvx2, kAvx512 };  // a processor that has one has those before it
 inline constexpr VectorSet kVectorSets[] = {VectorSet::kBaseline, VectorSet::kAvx2, VectorSet::kAvx512};
 
+/// What kernels are compiled for at most. Clang's flatten takes in what a kernel calls but not what that calls in turn:
+/// where little is inlined such a function would return its lanes as the baseline does, and AVX code misread them.
+#if !defined(__x86_64__) || !defined(__GNUC__) || (defined(__clang__) && defined(PLEAT_CHECKED))
+inline constexpr VectorSet kMostVectors = VectorSet::kBaseline;
+#elif defined(PLEAT_CHECKED)
+inline constexpr VectorSet kMostVectors = VectorSet::kAvx2;  // the third version would take long to compile
+#else
+inline constexpr VectorSet kMostVectors = VectorSet::kAvx512;
+#endif
+
 inline VectorSet vectors_of_processor() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(PLEAT_BASELINE_ONLY)
-  const auto has_all = [](auto... found) { return ((found != 0) && ...); };
+  VectorSet found = VectorSet::kBaseline;
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2") != 0) found = VectorSet::kAvx2;
+  const auto has_all = [](auto... has) { return ((has != 0) && ...); };
   if (has_all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"), __builtin_cpu_supports("avx512dq"),
               __builtin_cpu_supports("avx512bw"), __builtin_cpu_supports("bmi2"))) {
-    return VectorSet::kAvx512;
+    found = VectorSet::kAvx512;
   }
-  if (__builtin_cpu_supports("avx2") != 0) return VectorSet::kAvx2;
 #endif
-  return VectorSet::kBaseline;
+  return std::min(found, kMostVectors);
 }
 
 /// What widest_vectors() says at most. For tests and measurements, and to be set only while no kernel runs.
@@ -76,14 +85,13 @@ void run_baseline(const Kernel& kernel) {
 /// or inline: it is compiled in.
 template <class Kernel>
 void run_wide(VectorSet set, const Kernel& kernel) {
-  switch (set) {
-    case VectorSet::kAvx512:
-      return compiled::run_avx512(kernel);
-    case VectorSet::kAvx2:
-      return compiled::run_avx2(kernel);
-    case VectorSet::kBaseline:
-      return compiled::run_baseline(kernel);
+  if constexpr (kMostVectors >= VectorSet::kAvx512) {
+    if (set == VectorSet::kAvx512) return compiled::run_avx512(kernel);
   }
+  if constexpr (kMostVectors >= VectorSet::kAvx2) {
+    if (set == VectorSet::kAvx2) return compiled::run_avx2(kernel);
+  }
+  compiled::run_baseline(kernel);
 }
 
 }  // namespace pleat
