@@ -157,13 +157,12 @@ struct TriangleGap {
     for (const EdgeLanes& side : {EdgeLanes(a, b), EdgeLanes(b, c), EdgeLanes(c, a)}) {
       consider(EdgeDistance(core, side).away);
     }
-    const Vec3Lanes u = b - a, v = c - a, area = cross(u, v);
-    const Lanes area2 = dot(area, area);
+    const FaceAreas face(a, b, c);
     for (const Vec3Lanes& end : {core.a, core.b}) {
       const Vec3Lanes w = end - a;
-      const Lanes wb = dot(cross(w, v), area), wc = dot(cross(u, w), area);
-      const LaneMask over = (wb > 0.0f) & (wc > 0.0f) & (wb + wc < area2);
-      consider(area * (-dot(w, area) / (over ? area2 : all(1.0f))), over);
+      const Lanes wb = dot(cross(w, face.v), face.area), wc = dot(cross(face.u, w), face.area);
+      const LaneMask over = (wb > 0.0f) & (wc > 0.0f) & (wb + wc < face.area2);
+      consider(face.area * (-dot(w, face.area) / (over ? face.area2 : all(1.0f))), over);
     }
   }
 

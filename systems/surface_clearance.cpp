@@ -55,6 +55,11 @@ struct FaceGroup {
 
 constexpr std::size_t kMostTriangles = 4 * kMaxTessellationLevel * kMaxTessellationLevel;  // of a face
 
+/// The square of a triangle's longest side, m2.
+PLEAT_KERNEL Lanes longest_side_squared(const Vec3Lanes& a, const Vec3Lanes& b, const Vec3Lanes& c) {
+  return max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+}
+
 /// Of each lane's capsule.
 struct CapsuleLanes {
   Core core;
@@ -122,10 +127,9 @@ struct PairVertices {
       store(-dot(away, motion) / sqrt(d2), approach + v * kLanes);
       bulge = max(by, bulge);
     }
-    const Vec3Lanes &a = corner[0], &b = corner[1], &c = corner[2];
     // A footprint joins neighbours on the grid of the pattern; in the fan also the center to an edge's middle.
     const float share = in.pattern->level == 0 ? 1.0f / 3.0f : 1.0f / static_cast<float>(in.pattern->segments);
-    longest_side2 = share * share * max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+    longest_side2 = share * share * longest_side_squared(corner[0], corner[1], corner[2]);
   }
 
   PLEAT_KERNEL Vec3Lanes at(std::uint32_t v) const { return load({x, y, z}, v * kLanes); }
@@ -140,8 +144,7 @@ struct PairVertices {
     const Lanes far = kept + bulge;
     const LaneMask near = near2 < far * far + longest_side2 * (1.0f / 3.0f);
     if (!any(near)) return near;
-    const Vec3Lanes a = at(t[0]), b = at(t[1]), c = at(t[2]);
-    const Lanes side2 = max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+    const Lanes side2 = longest_side_squared(at(t[0]), at(t[1]), at(t[2]));
     const Lanes apart2 = near2 - side2 * (1.0f / 3.0f);
     const LaneMask apart = apart2 > kept * kept;
     const Lanes distance = sqrt(apart ? apart2 : all(1.0f)), turn = sqrt(side2) / distance;
