@@ -1,4 +1,4 @@
-// Capsules near a cloth, eight side by side: what a place of the cloth is tested against at once.
+// Capsules near a cloth, eight side by side: what a capsule is tested against at once.
 #pragma once
 
 #include <limits>
@@ -10,15 +10,13 @@ namespace pleat {
 
 /// What of eight capsules tells how near they are. Lanes without one have a radius that is near nothing.
 struct CapsuleBlock {
-  Vec3Lanes a, axis;        // where the core begins at the end of the substep; from a to b, m
-  Lanes axis2 = all(1.0f);  // m2, more than zero
+  Vec3Lanes a, axis;  // where the core begins at the end of the substep; from a to b, m
   Lanes widest = all(-std::numeric_limits<float>::max());  // radius where it is widest, m
 
   void put(std::size_t lane, const CapsulePose& c) {
     const Vec3 along = c.b - c.a;
     a.x[lane] = c.a.x, a.y[lane] = c.a.y, a.z[lane] = c.a.z;
     axis.x[lane] = along.x, axis.y[lane] = along.y, axis.z[lane] = along.z;
-    axis2[lane] = dot(along, along) + 1e-24f;
     widest[lane] = c.radius + std::max(c.taper, 0.0f);
   }
 };

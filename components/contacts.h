@@ -12,12 +12,12 @@ namespace pleat {
 struct ContactRow {
   std::uint32_t particle[4];  // cloth-local
   float weight[4];
-  std::uint32_t count;  // of particles: 1 to 4; 4 is the cloth against itself
   Vec3 normal;          // out of the body, unit
   float offset;         // d, m
   Vec3 body_step;       // motion of the touched point of the body over the substep, m
   float friction;       // Coulomb coefficient of the pair
   float share[4];       // of a shift of the point, each particle's: w_k b_k / (sum of w b^2), or less (contact_row.h)
+  std::uint32_t count;  // of particles: 1 to 4; 4 is the cloth against itself
   float push;           // m, total distance pushed in this substep's sweeps
   float rubbed;         // m, what friction has taken back of sliding in this substep
 

@@ -203,7 +203,8 @@ constexpr Row kRows[] = {
                             .dt = t.dt,
                             .candidates = &t.worker.capsule_candidates,
                             .contacts = contacts_of(t),
-                            .blocks = t.worker.capsule_blocks.data()},
+                            .blocks = t.worker.capsule_blocks.data(),
+                            .packed = t.worker.packed.position.data()},
            t.worker.stats);
      }},
     {Phase::kContact, "plane_detection", with_planes,

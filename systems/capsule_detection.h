@@ -9,6 +9,7 @@
 #include "components/capsule_candidates.h"
 #include "components/contacts.h"
 #include "components/stats.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -18,7 +19,7 @@ namespace pleat {
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules; candidates, of these
-/// Writes: contacts, added to; stats.contacts_dropped; blocks
+/// Writes: contacts, added to; stats.contacts_dropped; blocks, packed
 /// Cost:   O(candidates), no allocation. Errors: none; features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
@@ -33,6 +34,7 @@ struct CapsuleDetection {
   const CapsuleCandidateColumns* candidates = nullptr;
   ContactList contacts;
   CapsuleBlock* blocks = nullptr;  // scratch, capsule_blocks(capsule_count)
+  Vec4* packed = nullptr;          // scratch, (P) padded
 
   bool validate() const;
   void run(Stats& stats) const;

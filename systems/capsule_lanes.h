@@ -39,16 +39,6 @@ PLEAT_KERNEL LaneMask is_near(const Core& core, const Vec3Lanes& position) {
   return dot(away, away) < core.reach2;
 }
 
-/// Which of the capsules may have a surface nearer to a place than `room`, and not lie behind it where it is to be
-/// moved along `normal`. Those that taper count as if they were as thick all along.
-PLEAT_KERNEL LaneMask may_press(const CapsuleBlock& capsules, const Vec3& place, const Vec3& normal, float room) {
-  const Vec3Lanes n = all(normal), from_a = all(place) - capsules.a;
-  const Lanes a_behind = dot(n, from_a), b_behind = a_behind - dot(n, capsules.axis);
-  const Vec3Lanes away = from_a - capsules.axis * clamped(dot(from_a, capsules.axis) / capsules.axis2);
-  const Lanes reach = capsules.widest + (room + kLaneRounding);
-  return (min(a_behind, b_behind) < kLaneRounding) & (reach > 0.0f) & (dot(away, away) < reach * reach);
-}
-
 struct EdgeLanes {
   Vec3Lanes start, along;
 
@@ -79,6 +69,14 @@ struct EdgeDistance {
 
 PLEAT_KERNEL LaneMask is_near(const Core& core, const EdgeLanes& edge) {
   return EdgeDistance(core, edge).distance2 < core.reach2;
+}
+
+/// Whose surfaces may be nearer to the core than `room`, m.
+PLEAT_KERNEL LaneMask may_press(const CapsuleBlock& capsules, const Core& core, float room) {
+  EdgeLanes cores;
+  cores.start = capsules.a, cores.along = capsules.axis;
+  const Lanes reach = capsules.widest + (room + kLaneRounding);
+  return (reach > 0.0f) & (EdgeDistance(core, cores).distance2 < reach * reach);
 }
 
 /// Faces by their planes and, within those, the lines of their sides.
@@ -130,19 +128,30 @@ struct FaceAreas {
 
   PLEAT_KERNEL FaceAreas(const Vec3Lanes& corner, const Vec3Lanes& second, const Vec3Lanes& third)
       : a(corner), u(second - corner), v(third - corner), area(cross(u, v)), area2(dot(area, area)) {}
+
+  /// Whether each of two points is, nearer than `reach`.
+  struct Pair {
+    LaneMask first, second;
+  };
+  PLEAT_KERNEL Pair have_below(const Vec3Lanes& p, const Vec3Lanes& q, float reach) const {
+    const Vec3Lanes to_second = cross(v, area), to_third = cross(area, u);
+    const auto is_over = [&](const Vec3Lanes& point) {
+      const Vec3Lanes w = point - a;
+      const Lanes height = dot(w, area), second = dot(w, to_second), third = dot(w, to_third);
+      return (area2 > 1e-16f) & (height * height <= reach * reach * area2) & (second > 0.0f) & (third > 0.0f) &
+             (second + third < area2);
+    };
+    return {is_over(p), is_over(q)};
+  }
 };
 
-/// Whether a point is, nearer than `reach`, and the weights of the second and third corners below it.
-struct PointOver {
+/// The weights of the second and third corners at the foot of a point that is over a face.
+struct FootWeights {
   Lanes second, third;
-  LaneMask over;
 
-  PLEAT_KERNEL PointOver(const FaceAreas& face, const Vec3Lanes& point, float reach) {
+  PLEAT_KERNEL FootWeights(const FaceAreas& face, const Vec3Lanes& point) {
     const Vec3Lanes w = point - face.a;
-    const Lanes height = dot(w, face.area), reach2 = reach * reach * face.area2;
     second = dot(cross(w, face.v), face.area) / face.area2, third = dot(cross(face.u, w), face.area) / face.area2;
-    over = (face.area2 > 1e-16f) & (height * height <= reach2) & (second > 0.0f) & (third > 0.0f) &
-           (second + third < 1.0f);
   }
 };
 

@@ -51,12 +51,12 @@ struct ContactRowMaker {
            float relaxation = 1.0f) const {
     add({.particle = {particle[0], particle[1], particle[2]},
          .weight = {weight[0], weight[1], weight[2]},
-         .count = count,
          .normal = normal,
          .offset = dot(normal, surface) + distance,
          .body_step = body_step,
          .friction = friction * body_friction,
          .share = {},
+         .count = count,
          .push = 0.0f,
          .rubbed = 0.0f},
         stats, relaxation);

@@ -51,12 +51,12 @@ void LayerDetection::run(Stats& stats) const {
     const float sign = corners.own == 0 ? 1.0f : -1.0f;  // so that the weights of the own feature sum to 1
     ContactRow row{.particle = {},
                    .weight = {},
-                   .count = static_cast<std::uint32_t>(corners.own_count),
                    .normal = near.normal * sign,
                    .offset = pair->distance,
                    .body_step = {},
                    .friction = friction,
                    .share = {},
+                   .count = static_cast<std::uint32_t>(corners.own_count),
                    .push = 0.0f,
                    .rubbed = 0.0f};
     for (int k = 0; k < 4; ++k) {

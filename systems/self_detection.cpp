@@ -26,12 +26,12 @@ void SelfDetection::run(Stats& stats) const {
     if (near.distance > 2.0f * pair->distance) continue;
     rows.add({.particle = {i[0], i[1], i[2], i[3]},
               .weight = {near.weight[0], near.weight[1], near.weight[2], near.weight[3]},
-              .count = 4,
               .normal = near.normal,
               .offset = pair->distance,
               .body_step = {},
               .friction = friction,
               .share = {},
+              .count = 4,
               .push = 0.0f,
               .rubbed = 0.0f},
              stats);

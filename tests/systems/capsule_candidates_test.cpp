@@ -75,7 +75,8 @@ struct Walk {
                      kDt,
                      &cloth.candidates,
                      cloth.contacts(),
-                     cloth.blocks.data()}
+                     cloth.blocks.data(),
+                     cloth.scratch.data()}
         .run(stats);
     return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};
   }

@@ -32,7 +32,8 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
           kDt,
           &cloth.candidates,
           cloth.contacts(),
-          cloth.blocks.data()};
+          cloth.blocks.data(),
+          cloth.scratch.data()};
 }
 
 void respond(ContactCloth& cloth, int passes, FaceResponse response = FaceResponse::kWeighted) {

@@ -21,13 +21,13 @@ struct Scene {
     for (std::uint32_t k = 0; k < 3; ++k) yields += cloth.inverse_mass[k] * w[k] * w[k];
     cloth.contacts().add({.particle = {0, 1, 2},
                           .weight = {a, b, c},
-                          .count = at_particle ? 1u : 3u,
                           .normal = {0, 1, 0},
                           .offset = 0.01f,
                           .body_step = {},
                           .friction = 0.0f,
                           .share = {cloth.inverse_mass[0] * a / yields, cloth.inverse_mass[1] * b / yields,
                                     cloth.inverse_mass[2] * c / yields},
+                          .count = at_particle ? 1u : 3u,
                           .push = 0.0f,
                           .rubbed = 0.0f});
   }

@@ -56,12 +56,12 @@ struct Incline {
   void add_row() {
     cloth.contacts().add({.particle = {0, 0, 0},
                           .weight = {1, 0, 0},
-                          .count = 1,
                           .normal = normal,
                           .offset = dot(normal, plane) + kThickness,
                           .body_step = plane_velocity * kDt,
                           .friction = friction,
                           .share = {1},
+                          .count = 1,
                           .push = 0.0f,
                           .rubbed = 0.0f});
   }

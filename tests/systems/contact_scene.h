@@ -34,6 +34,7 @@ struct ContactCloth {
   Column<float> inverse_mass{memory()};
   CapsuleCandidateColumns candidates{memory()};
   Column<CapsuleBlock> blocks{memory()};
+  Column<Vec4> scratch{memory()};
   std::vector<ContactRow> rows = std::vector<ContactRow>(4096);
   std::uint32_t row_count = 0;
 
@@ -42,6 +43,7 @@ struct ContactCloth {
       : garment(build_garment({positions, triangles, {}, pins, {}}, memory())) {
     for (Vec3Column* c : {&position, &previous, &velocity, &predicted, &force}) c->resize(positions.size());
     inverse_mass.resize(positions.size());
+    scratch.resize(positions.size());
     candidates.anchor.resize(positions.size());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
       put(i, positions[i], positions[i]);
