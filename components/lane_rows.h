@@ -9,7 +9,7 @@ namespace pleat {
 /// Points of eight edges or faces, those of the same place in their rows side by side, until they are stored.
 struct LaneRows {
   static constexpr std::uint32_t kMostPlaces = 108;  // of a row
-  float x[kMostPlaces * kLanes], y[kMostPlaces * kLanes], z[kMostPlaces * kLanes];
+  alignas(Lanes) float x[kMostPlaces * kLanes], y[kMostPlaces * kLanes], z[kMostPlaces * kLanes];
 
   PLEAT_KERNEL void set(std::uint32_t place, const Vec3Lanes& point) { store(point, {x, y, z}, place * kLanes); }
   /// The first `count` rows of `length` places; the first of them begins at to[begin].

@@ -1,11 +1,54 @@
 #include "systems/drawn_normals.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "components/base_normal.h"
-#include "components/wide.h"
+#include "components/lane_rows.h"
 
 namespace pleat {
+namespace {
+
+/// Of eight faces the same.
+struct FaceVertex {
+  Vec3Lanes x, n;  // m; m2, sum of cross products
+};
+/// Not to be zeroed before they are made.
+union FaceVertices {
+  FaceVertex each[kMaxVerticesPerFace];
+  FaceVertices() {}
+};
+
+/// Adds up the triangles of eight faces at their vertices; what is inside the faces is done with that.
+PLEAT_KERNEL void add_faces(const DrawnNormals& s, std::uint32_t begin, std::uint32_t count) {
+  const TessellationPattern& pattern = *s.pattern;
+  const std::uint32_t *from = pattern.drawn_of_faces(begin), *to = pattern.shaded_of_faces(begin);
+  FaceVertices vertices;
+  FaceVertex* const of = vertices.each;
+  for (std::uint32_t v = 0; v < pattern.vertices_per_face; ++v) {
+    std::construct_at(of + v, FaceVertex{gather(s.position, from + v * kLanes), {}});
+  }
+  const std::uint32_t* triangles = pattern.face_triangles.data();
+  for (const std::uint32_t *t = triangles, *last = t + pattern.face_triangles.size(); t != last; t += 3) {
+    FaceVertex &a = of[t[0]], &b = of[t[1]], &c = of[t[2]];
+    const Vec3Lanes area = cross(b.x - a.x, c.x - a.x);
+    a.n += area, b.n += area, c.n += area;
+  }
+  const std::uint32_t inner = static_cast<std::uint32_t>(pattern.inner.size()),
+                      first_inner = pattern.vertices_per_face - inner;
+  for (std::uint32_t v = 0; v < first_inner; ++v) scatter_add(of[v].n, to + v * kLanes, count, s.sum);
+  LaneRows rows;
+  for (std::uint32_t i = 0; i < inner; ++i) rows.set(i, normalized_or(of[first_inner + i].n, all(kAnyNormal)));
+  rows.store_to(s.normal, pattern.face_vertex(begin, 0), inner, count);
+}
+
+PLEAT_KERNEL void normalize_sums(const DrawnNormals& s, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t i = begin; i < end; i += kLanes) {
+    store(normalized_or(load(s.sum + i).vector, all(kAnyNormal)), s.normal, i, std::min(kLanes, end - i));
+  }
+}
+
+}  // namespace
 
 bool DrawnNormals::validate() const {
   return pattern != nullptr && position.x != nullptr && sum != nullptr && normal.x != nullptr;
@@ -13,29 +56,13 @@ bool DrawnNormals::validate() const {
 
 void DrawnNormals::run() const {
   run_wide(widest_vectors(), [this] {
-    const std::uint32_t* triangles = pattern->face_triangles.data();
-    const std::uint32_t* last = triangles + pattern->face_triangles.size();
-    const std::uint32_t end = pattern->vertices_per_face * kLanes, shaded = pattern->shaded_count();
     const std::uint32_t faces = static_cast<std::uint32_t>(pattern->face_vertices.size() / pattern->vertices_per_face);
-
-    std::fill_n(sum, shaded, Vec4{});
-    constexpr std::size_t kRoom = kMaxVerticesPerFace * kLanes;
-    alignas(Lanes) float columns[6][kRoom];  // a lane is a face
-    const Vec3View x{columns[0], columns[1], columns[2]}, n{columns[3], columns[4], columns[5]};
-    for (std::uint32_t begin = 0; begin < faces; begin += kLanes) {
-      const std::uint32_t* from = pattern->drawn_of_faces(begin);
-      for (std::uint32_t v = 0; v < end; v += kLanes) store(gather(position, from + v), x, v), store({}, n, v);
-      for (const std::uint32_t* t = triangles; t != last; t += 3) {
-        const Vec3Lanes a = load(x, t[0] * kLanes), b = load(x, t[1] * kLanes), c = load(x, t[2] * kLanes);
-        const Vec3Lanes area = cross(b - a, c - a);
-        for (std::size_t k = 0; k < 3; ++k) store(load(n, t[k] * kLanes) + area, n, t[k] * kLanes);
-      }
-      const std::uint32_t *to = pattern->shaded_of_faces(begin), count = std::min(kLanes, faces - begin);
-      for (std::uint32_t v = 0; v < end; v += kLanes) scatter_add(load(n, v), to + v, count, sum);
-    }
-    for (std::uint32_t i = 0; i < shaded; i += kLanes) {
-      store(normalized_or(load(sum + i).vector, all(kAnyNormal)), normal, i, std::min(kLanes, shaded - i));
-    }
+    const std::uint32_t shared = pattern->first_face_vertex, shaded = pattern->shaded_count();
+    std::fill_n(sum, shared, Vec4{});
+    std::fill(sum + pattern->vertex_count, sum + shaded, Vec4{});
+    for (std::uint32_t f = 0; f < faces; f += kLanes) add_faces(*this, f, std::min(kLanes, faces - f));
+    normalize_sums(*this, 0, shared);
+    normalize_sums(*this, pattern->vertex_count, shaded);
   });
 }
 
