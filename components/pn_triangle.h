@@ -40,9 +40,13 @@ struct PnTriangleT {
     }
   }
 
+  /// The point of the flat triangle at barycentrics p.
+  PLEAT_KERNEL Vec3T<T> flat(const float (&p)[3]) const {
+    return corner[0] * p[0] + corner[1] * p[1] + corner[2] * p[2];
+  }
   /// The point at barycentrics p with their weights = bend_weights(p).
   PLEAT_KERNEL Vec3T<T> point(const float (&p)[3], const std::array<float, 6>& weights) const {
-    Vec3T<T> x = corner[0] * p[0] + corner[1] * p[1] + corner[2] * p[2];
+    Vec3T<T> x = flat(p);
     for (std::size_t i = 0; i < 6; ++i) x -= bend[i] * weights[i];
     return x;
   }

@@ -59,6 +59,12 @@ const char* with_sides(const World& w, const ClothRecord& c) {
   return c.settings.surface == PLEAT_SURFACE_PAPER ? "the paper folds outwards" : with_folds(w, c);
 }
 
+/// For tessellation to tell how far the surface bulges where bodies ask for it, and no mesh moves the surface first.
+float* bulge(const ClothTick& t) {
+  const bool asked = t.world.has_colliders() && t.world.meshes.empty();
+  return asked && Tessellation::tells_bulge(surface_mode(t.settings)) ? t.worker.bulge.data() : nullptr;
+}
+
 constexpr Row kRows[] = {
     {Phase::kFrameEnd, "particle_normals", with_normals,
      [](ClothTick& t) {
@@ -111,7 +117,8 @@ constexpr Row kRows[] = {
                         .normal = t.normal,
                         .fold = t.fold,
                         .fold_height = t.fold_height,
-                        .drawn_position = t.drawn_position});
+                        .drawn_position = t.drawn_position,
+                        .bulge = bulge(t)});
      }},
 #ifdef PLEAT_WITH_COLLISION
     {Phase::kFrameEnd, "surface_footprint", with_meshes,
@@ -155,6 +162,7 @@ constexpr Row kRows[] = {
                             .half_space_count = w.planes.size(),
                             .t = t.t1,
                             .clearance = surface_clearance(t),
+                            .bulge = bulge(t),
                             .planes = clearance_planes(t),
                             .drawn_position = t.drawn_position});
      }},

@@ -29,6 +29,7 @@ struct Worker {
   NearScratch near_scratch;  // empty unless cloth touches cloth
   FoldChoices fold_choices;  // empty unless a cloth folds
   Vec3Column footprint;      // m, the drawn vertices on the flat coarse triangles; empty unless there are meshes
+  Column<float> bulge;       // m, of faces; empty unless a cloth is drawn
   Column<Vec4> normal_sum;   // of normals and of shaded normals; empty unless a cloth is drawn
   Column<ClearancePlane> clearance_planes;
   Column<NearTriangle> near_triangles;
@@ -51,6 +52,7 @@ struct Worker {
         near_scratch(m),
         fold_choices(m),
         footprint(m),
+        bulge(m),
         normal_sum(m),
         clearance_planes(m),
         near_triangles(m),

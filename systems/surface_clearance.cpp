@@ -18,20 +18,24 @@ struct FaceGroup {
   Vec3Lanes corner[3], center, area;  // m, of the coarse triangle; twice its area along its normal, m2
   Lanes size, bulge;                  // m, from the center to the furthest corner; the largest motion
 
-  PLEAT_KERNEL FaceGroup(const SurfaceClearance& in, std::uint32_t begin) {
-    const TessellationPattern& pattern = *in.pattern;
-    const std::uint32_t* drawn = pattern.drawn_of_faces(begin);
+  /// known: the vertices are where in.bulge tells.
+  PLEAT_KERNEL FaceGroup(const SurfaceClearance& in, std::uint32_t begin, bool known) {
+    const std::uint32_t* drawn = in.pattern->drawn_of_faces(begin);
     for (std::uint32_t k = 0; k < 3; ++k) corner[k] = gather(in.position, drawn + k * kLanes);
-    Lanes bulge2{};
-    for (std::uint32_t v = 0; v < pattern.vertices_per_face; ++v) {
-      const Vec3Lanes motion =
-          gather(in.drawn_position, drawn + v * kLanes) - place_on(corner, pattern.face_weights[v]);
-      bulge2 = max(dot(motion, motion), bulge2);
-    }
-    bulge = sqrt(bulge2);
+    bulge = known ? load(in.bulge + begin) : measured(in, drawn);
     center = (corner[0] + corner[1] + corner[2]) * (1.0f / 3.0f);
     size = max(max(length(corner[0] - center), length(corner[1] - center)), length(corner[2] - center));
     area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  }
+
+  PLEAT_KERNEL Lanes measured(const SurfaceClearance& in, const std::uint32_t* drawn) const {
+    Lanes bulge2{};
+    for (std::uint32_t v = 0; v < in.pattern->vertices_per_face; ++v) {
+      const Vec3Lanes motion =
+          gather(in.drawn_position, drawn + v * kLanes) - place_on(corner, in.pattern->face_weights[v]);
+      bulge2 = max(dot(motion, motion), bulge2);
+    }
+    return sqrt(bulge2);
   }
 
   /// Not where the coarse triangle is further from the core than the largest motion of a vertex and what is kept, as
@@ -185,12 +189,12 @@ struct Lifter {
 
   PLEAT_KERNEL void run() {
     for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
-      FaceGroup faces(in, begin);
+      FaceGroup faces(in, begin, in.bulge != nullptr && settled == 0);
       const std::uint32_t valid = bits(first_lanes(in.garment->face_count - begin));
       const auto for_each = [&](std::uint32_t near, const auto& visit) {
         const std::uint32_t before = settled;
         for (near &= valid; near != 0; near &= near - 1) visit(static_cast<std::uint32_t>(std::countr_zero(near)));
-        if (settled != before) faces = FaceGroup(in, begin);
+        if (settled != before) faces = FaceGroup(in, begin, false);
       };
       for (std::size_t k = 0; k < in.half_space_count; ++k) {
         if (!in.half_spaces[k].enabled) continue;

@@ -90,6 +90,20 @@ void bend_along_creases(const Tessellation& s, std::uint32_t f, std::uint32_t la
   }
 }
 
+/// The squares of how far the vertices along the sides of faces are from there, at most, m2. moved: by the folds.
+PLEAT_KERNEL Lanes sides_bulge(const TessellationPattern& pattern, const PnTriangleT<Lanes>& face,
+                               const Vec3Lanes (&moved)[3]) {
+  Lanes bulge2{};
+  for (std::uint32_t i = 0; i < pattern.segments - 1; ++i) {
+    const float t = pattern.along_edge(i + 1), u = t * (1.0f - t) * (1.0f - t), v = t * t * (1.0f - t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3Lanes motion = moved[k] * fold_shape(t) - (face.bend[2 * k] * u + face.bend[2 * k + 1] * v);
+      bulge2 = max(dot(motion, motion), bulge2);
+    }
+  }
+  return bulge2;
+}
+
 /// kPn, kArcPn, and with folds kPleat: the vertices inside faces.
 template <SurfaceMode mode>
 PLEAT_KERNEL void draw_curved_faces(const Tessellation& s) {
@@ -117,11 +131,16 @@ PLEAT_KERNEL void draw_curved_faces(const Tessellation& s) {
       for (std::uint32_t lane = 0; lane < count; ++lane) bend_along_creases<mode>(s, f + lane, lane, face.bend);
     }
     const bool any_fold = any(folds);
+    Lanes bulge2 = s.bulge != nullptr ? sides_bulge(pattern, face, moved) : Lanes{};
     for (std::uint32_t i = 0; i < inner_count(pattern); ++i) {
       const InnerPoint& q = pattern.inner[i];
-      const Vec3Lanes x = face.point(q.face, q.bend);
-      rows.set(i, any_fold ? x + (moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2]) : x);
+      Vec3Lanes x = face.point(q.face, q.bend);
+      if (any_fold) x += moved[0] * q.fold[0] + moved[1] * q.fold[1] + moved[2] * q.fold[2];
+      rows.set(i, x);
+      const Vec3Lanes motion = x - face.flat(q.face);
+      bulge2 = max(dot(motion, motion), bulge2);
     }
+    if (s.bulge != nullptr) store(sqrt(bulge2), s.bulge + f);
     rows.store_to(s.drawn_position, pattern.face_vertex(f, 0), inner_count(pattern), count);
   }
 }
@@ -208,11 +227,15 @@ void draw_paper(const Tessellation& s) {
 
 }  // namespace
 
+bool Tessellation::tells_bulge(SurfaceMode mode) {
+  return mode == SurfaceMode::kPn || mode == SurfaceMode::kPleat || mode == SurfaceMode::kArcPn;
+}
+
 bool Tessellation::validate() const {
   const bool curved = mode != SurfaceMode::kFlat;
   return mode <= SurfaceMode::kArcPn && garment != nullptr && pattern != nullptr && position.x != nullptr &&
          (!curved || normal.x != nullptr) && (!has_folds(mode) || (fold.x != nullptr && fold_height != nullptr)) &&
-         drawn_position.x != nullptr;
+         drawn_position.x != nullptr && (bulge == nullptr || tells_bulge(mode));
 }
 
 void Tessellation::run() const {

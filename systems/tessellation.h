@@ -20,7 +20,8 @@ namespace pleat {
 /// Creases part the slopes of kPn, kPleat and kArcPn; the other modes know them in the shading only.
 /// Reads:  garment faces and edges; pattern; position (P) m; normal (N) unit, not for kFlat; fold (E) unit and
 ///         fold_height (E) m, for kPaper and kPleat only
-/// Writes: drawn_position (V) m
+/// Writes: drawn_position (V) m; bulge (F) m, how far a face's vertices are from its flat triangle at most, up to
+///         rounding
 /// Cost:   O(V), no allocation. Errors: none.
 struct Tessellation {
   SurfaceMode mode = SurfaceMode::kPleat;
@@ -31,7 +32,9 @@ struct Tessellation {
   ConstVec3View fold;
   const float* fold_height = nullptr;
   Vec3View drawn_position;
+  float* bulge = nullptr;  // a column, or null; only for modes that tell it
 
+  static bool tells_bulge(SurfaceMode mode);
   bool validate() const;
   void run() const;
 };

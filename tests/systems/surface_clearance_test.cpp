@@ -218,6 +218,28 @@ TEST(SurfaceClearance, AListTooSmallIsSettledInTurn) {
   EXPECT_GE(least_distance(s, s.drawn.view(), c.capsules[0]), kClearance - kRounding);
 }
 
+TEST(SurfaceClearance, BulgesThatAreToldAreAsGoodAsMeasuredOnes) {
+  for (const std::uint32_t level : {0u, 3u}) {
+    for (const std::size_t room : {4096u, 7u}) {
+      std::vector<std::vector<Vec3>> found;
+      for (const bool told : {false, true}) {
+        Surface s(skirt(), level);
+        s.jitter(0.02f, 4);
+        s.run();
+        const std::vector<Vec3> before = drawn(s);
+        Clearance c{s, {capsule({0, 1.1f, 0}, {0, 0.8f, 0}, 0.12f), capsule({0.1f, 1, 0}, {0.2f, 0.5f, 0}, 0.1f)}};
+        c.planes.resize(room);
+        SurfaceClearance system = c.system();
+        system.bulge = told ? s.bulge.data() : nullptr;
+        system.run();
+        found.push_back(drawn(s));
+        EXPECT_NE(found.back(), before);
+      }
+      EXPECT_EQ(found[0], found[1]);
+    }
+  }
+}
+
 TEST(SurfaceClearance, ManyBodiesAreKeptByAListTooSmall) {
   SaggingSheet s(0.04f);
   Clearance c{s, {}};

@@ -37,7 +37,7 @@ struct Surface {
   Garment garment;
   TessellationPattern pattern;
   Vec3Column position, normal, fold, drawn, drawn_normal;
-  Column<float> fold_height, fold_side;
+  Column<float> fold_height, fold_side, bulge;
   Column<Vec4> normal_sum, place;
   FoldChoices choices;
   float kept = 0.0f;  // of the last frame's sides
@@ -54,6 +54,7 @@ struct Surface {
         drawn_normal(m),
         fold_height(m),
         fold_side(m),
+        bulge(m),
         normal_sum(m),
         place(m),
         choices(m) {
@@ -61,6 +62,7 @@ struct Surface {
     normal.resize(garment.normal_count);
     fold.resize(garment.edge_count);
     fold_height.resize(garment.edge_count), fold_side.resize(garment.edge_count);
+    bulge.resize(garment.face_count);
     choices.make_room(garment.edge_count, garment.face_count);
     drawn.resize(pattern.vertex_count);
     drawn_normal.resize(pattern.shaded_count()),
@@ -86,7 +88,15 @@ struct Surface {
     return {mode, &garment, position.view(), normal.view(), fold.view(), fold_height.data(), fold_side.data()};
   }
   Tessellation tessellation() {
-    return {mode, &garment, &pattern, position.view(), normal.view(), fold.view(), fold_height.data(), drawn.view()};
+    return {.mode = mode,
+            .garment = &garment,
+            .pattern = &pattern,
+            .position = position.view(),
+            .normal = normal.view(),
+            .fold = fold.view(),
+            .fold_height = fold_height.data(),
+            .drawn_position = drawn.view(),
+            .bulge = Tessellation::tells_bulge(mode) ? bulge.data() : nullptr};
   }
   DrawnNormals drawn_normals() { return {&pattern, drawn.view(), normal_sum.data(), drawn_normal.view()}; }
 

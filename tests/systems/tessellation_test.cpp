@@ -147,6 +147,32 @@ TEST(Tessellation, PleatIsPnOnFacesWithoutFolds) {
   EXPECT_GT(folded, 0);
 }
 
+TEST(Tessellation, TellsHowFarTheVerticesOfFacesAreFromTheFlatTriangles) {
+  for (const SurfaceMode mode : {SurfaceMode::kPn, SurfaceMode::kPleat, SurfaceMode::kArcPn}) {
+    for (const float crease_angle : {4.0f, 0.5f}) {
+      for (const std::uint32_t level : {0u, 1u, 2u, 5u}) {
+        Surface s(garment_of(skirt(), crease_angle), level);
+        s.mode = mode;
+        s.jitter(0.012f, 5);
+        s.run();
+        for (std::uint32_t f = 0; f < s.garment.face_count; ++f) {
+          const std::uint32_t* vertex = &s.pattern.face_vertices[f * s.pattern.vertices_per_face];
+          float furthest = 0.0f;
+          for (std::uint32_t v = 0; v < s.pattern.vertices_per_face; ++v) {
+            Vec3 flat{};
+            for (std::size_t k = 0; k < 3; ++k) {
+              flat += s.position.view()[s.garment.face_particle[k][f]] * s.pattern.face_weights[v][k];
+            }
+            furthest = std::max(furthest, length(s.drawn.view()[vertex[v]] - flat));
+          }
+          EXPECT_GT(furthest, 1e-4f);
+          EXPECT_NEAR(s.bulge[f], furthest, 1e-6f);
+        }
+      }
+    }
+  }
+}
+
 TEST(Tessellation, FoldsOverAFlatFaceAreThePapersFourPatches) {
   // With upright normals the four rebuilt PN triangles and the bump field are the same cubics.
   for (const std::uint32_t level : {0u, 2u, 5u}) {
@@ -289,6 +315,8 @@ TEST(Tessellation, ValidateRefusesWhatIsMissing) {
   t.normal = {};
   EXPECT_FALSE(t.validate());
   t.mode = SurfaceMode::kFlat;
+  EXPECT_FALSE(t.validate());  // flat triangles have no bulge to tell
+  t.bulge = nullptr;
   EXPECT_TRUE(t.validate());
 }
 
