@@ -1,11 +1,13 @@
 // What of a cloth may touch which capsule before they have moved much: looked up now and then, tested in each substep.
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 #include "components/colliders.h"
 #include "components/garment.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -20,26 +22,60 @@ struct FeatureWords {
   static std::size_t words(std::uint32_t count) { return (std::size_t{count} + 63) / 64; }
 };
 
-/// visit(i) for the bits that are set, ascending.
-template <class Visitor>
-void for_each_bit(const std::uint64_t* begin, const std::uint64_t* end, const Visitor& visit) {
-  for (const std::uint64_t* word = begin; word != end; ++word) {
-    for (std::uint64_t bits = *word; bits != 0; bits &= bits - 1) {
-      visit(static_cast<std::uint32_t>(64 * (word - begin) + std::countr_zero(bits)));
-    }
-  }
+enum class FeatureKind : std::uint8_t { kParticle, kEdge, kFace };
+inline constexpr FeatureKind kFeatureKinds[] = {FeatureKind::kParticle, FeatureKind::kEdge, FeatureKind::kFace};
+
+constexpr std::uint32_t count_of(const Garment& g, FeatureKind kind) {
+  return kind == FeatureKind::kParticle ? g.particle_count : kind == FeatureKind::kEdge ? g.edge_count : g.face_count;
 }
+
+/// Features of one kind near one capsule, ascending: in column `feature` from `begin` on, whole lanes, the last ones
+/// filled up with the first of theirs; or all that there are, where the column had no room.
+struct NearFeatures {
+  static constexpr std::uint32_t kAll = ~std::uint32_t{0};
+  std::uint32_t begin = 0, count = 0;
+};
 
 /// The candidates of one cloth. They can be relied on while they are of the same capsules and nothing came closer than
 /// they allow for, see CapsuleCandidates.
 struct CapsuleCandidateColumns {
-  Column<std::uint64_t> near;      // a set for each capsule; size() is the room
+  Column<NearFeatures> near;       // of each kind for each capsule; size() is the room
+  Column<std::uint32_t> feature;   // that these are in
+  Column<std::uint64_t> marked;    // scratch: a set for each capsule
   Column<CapsulePose> sought;      // the capsules as they were, ascending by index
   Vec3Column anchor;               // (P) m, where particles were
   std::uint32_t sought_count = 0;  // of capsules
   float margin = 0.0f;             // m, what is looked for besides radius and thickness
+  float longest_edge = 0.0f;       // m, as it was
 
-  explicit CapsuleCandidateColumns(std::pmr::memory_resource* m) : near(m), sought(m), anchor(m) {}
+  explicit CapsuleCandidateColumns(std::pmr::memory_resource* m)
+      : near(m), feature(m), marked(m), sought(m), anchor(m) {}
+
+  NearFeatures& of(std::uint32_t capsule, FeatureKind kind) { return near.data()[place(capsule, kind)]; }
+  const NearFeatures& of(std::uint32_t capsule, FeatureKind kind) const { return near.data()[place(capsule, kind)]; }
+
+  void make_room(const Garment& g, std::size_t capsules) {
+    const std::size_t words = FeatureWords(g).end;
+    const auto at_least = [](auto& column, std::size_t size) {
+      if (column.size() < size) column.resize(size);
+    };
+    at_least(near, std::size(kFeatureKinds) * capsules);
+    at_least(feature, 64 * words * std::min(capsules, kCapsulesPerFeature));
+    at_least(marked, words * capsules);
+    at_least(sought, capsules);
+    at_least(anchor, g.particle_count);
+  }
+  bool holds(const Garment& g, std::size_t capsules) const {
+    return near.size() >= std::size(kFeatureKinds) * capsules && marked.size() >= FeatureWords(g).end * capsules &&
+           sought.size() >= capsules && anchor.size() >= g.particle_count;
+  }
+
+ private:
+  static constexpr std::size_t kCapsulesPerFeature = 8;  // that there is room for, on average
+
+  static std::size_t place(std::uint32_t capsule, FeatureKind kind) {
+    return std::size(kFeatureKinds) * capsule + static_cast<std::size_t>(kind);
+  }
 };
 
 }  // namespace pleat

@@ -188,7 +188,8 @@ constexpr Row kRows[] = {
                              .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
                              .first = t.t0 == 0.0f,
-                             .candidates = &t.worker.capsule_candidates});
+                             .candidates = &t.worker.capsule_candidates,
+                             .packed = t.worker.packed.position.data()});
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {

@@ -59,10 +59,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   at_least(worker.capsule_poses, capsule_room(world.capsules.size()));
   at_least(worker.capsule_blocks, capsule_blocks(worker.capsule_poses.size()));
   at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
-  CapsuleCandidateColumns& candidates = worker.capsule_candidates;
-  at_least(candidates.near, FeatureWords(g).end * worker.capsule_poses.size());
-  at_least(candidates.sought, worker.capsule_poses.size());
-  at_least(candidates.anchor, g.particle_count);
+  worker.capsule_candidates.make_room(g, worker.capsule_poses.size());
   if (!world.meshes.empty()) {
     at_least(worker.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
     at_least(worker.mesh_candidates.anchor, g.particle_count);

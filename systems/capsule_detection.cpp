@@ -8,25 +8,20 @@
 namespace pleat {
 namespace {
 
-/// The bits that are set from `begin` on, eight at a time: test(features, used). The last may be fewer; `used` has a
-/// bit for each place with a feature of its own.
+/// test(features, used) for eight at a time. The last may be fewer: `used` has a bit for each lane with a feature of
+/// its own, the others have the first one's.
 template <class Test>
-PLEAT_KERNEL void for_each_eight(const std::uint64_t* begin, const std::uint64_t* end, const Test& test) {
-  constexpr std::uint32_t kBits = 64, kRoom = 4 * kBits;
-  std::uint32_t feature[kRoom + kLanes], count = 0;
-  for (const std::uint64_t* word = begin; word != end; ++word) {
-    const auto first = kBits * static_cast<std::uint32_t>(word - begin);
-    for (std::uint64_t rest = *word; rest != 0; rest &= rest - 1) {
-      feature[count++] = first + static_cast<std::uint32_t>(std::countr_zero(rest));
+PLEAT_KERNEL void for_each_eight(const CapsuleCandidateColumns& candidates, const NearFeatures& near,
+                                 const Test& test) {
+  for (std::uint32_t first = 0; first < near.count; first += kLanes) {
+    const std::uint32_t used = (1u << std::min(near.count - first, kLanes)) - 1;
+    if (near.begin != NearFeatures::kAll) {
+      test(candidates.feature.data() + near.begin + first, used);
+    } else {
+      std::uint32_t feature[kLanes];
+      for (std::uint32_t k = 0; k < kLanes; ++k) feature[k] = (used >> k & 1) != 0 ? first + k : first;
+      test(feature, used);
     }
-    const bool last = word + 1 == end;
-    if (!last && count <= kRoom - kBits) continue;
-    std::uint32_t k = 0;
-    for (; k + kLanes <= count; k += kLanes) test(feature + k, (1u << kLanes) - 1);
-    if (last && k != count)
-      std::fill_n(feature + count, kLanes, feature[k]), test(feature + k, (1u << (count - k)) - 1);
-    std::copy(feature + k, feature + count, feature);
-    count -= k;
   }
 }
 
@@ -36,39 +31,47 @@ struct CapsuleTest {
   const ContactRowMaker& maker;
   const CapsulePose& capsule;
   float margin;
-  const std::uint64_t* near;
-  FeatureWords words = FeatureWords(*in.garment);
+  std::uint32_t number;                                          // of the capsule
   float reach = widest_radius(capsule) + in.thickness + margin;  // from the core
   Core lanes = Core(capsule, reach + kLaneRounding);
 
   PLEAT_KERNEL void run(Stats& stats) const {
     const CapsuleRows rows{maker,   in.packed, in.capsules, in.capsule_count, in.blocks, in.thickness,
                            capsule, lanes,     reach};
-    const auto add_round = [&](NearPlaces& places, bool all) {
-      places.hand_over(all, [&](std::uint32_t begin, std::uint32_t n) { rows.add_round(places, begin, n, stats); });
-    };
     NearPlaces round, flat;
-    for_each_eight(near + words.particles, near + words.edges, [&](const std::uint32_t* particle, std::uint32_t used) {
+    for_each_eight(*in.candidates, of(FeatureKind::kParticle), [&](const std::uint32_t* particle, std::uint32_t used) {
       find_particles(particle, used, round);
-      add_round(round, false);
+      add_round(rows, round, kLanes, stats);
     });
-    for_each_eight(near + words.edges, near + words.faces, [&](const std::uint32_t* edge, std::uint32_t used) {
+    for_each_eight(*in.candidates, of(FeatureKind::kEdge), [&](const std::uint32_t* edge, std::uint32_t used) {
       find_edges(edge, used, round);
-      add_round(round, false);
+      add_round(rows, round, kLanes, stats);
     });
-    add_round(round, true);
-
-    const auto add_flat = [&](bool all) {
-      flat.hand_over(all, [&](std::uint32_t begin, std::uint32_t n) { rows.add_flat(flat, begin, n, stats); });
-    };
-    for_each_eight(near + words.faces, near + words.end, [&](const std::uint32_t* face, std::uint32_t used) {
+    add_round(rows, round, 1, stats);
+    for_each_eight(*in.candidates, of(FeatureKind::kFace), [&](const std::uint32_t* face, std::uint32_t used) {
       find_faces(face, used, flat);
-      add_flat(false);
+      add_flat(rows, flat, kLanes, stats);
     });
-    add_flat(true);
+    add_flat(rows, flat, 1, stats);
   }
 
  private:
+  /// While there are `least` places.
+  static PLEAT_KERNEL void add_round(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) {
+    while (places.count >= least) {
+      rows.add_round(places, places.first_lanes(), stats);
+      places.drop_lanes();
+    }
+  }
+  static PLEAT_KERNEL void add_flat(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) {
+    while (places.count >= least) {
+      rows.add_flat(places, places.first_lanes(), stats);
+      places.drop_lanes();
+    }
+  }
+
+  const NearFeatures& of(FeatureKind kind) const { return in.candidates->of(number, kind); }
+
   /// Where eight features have a corner that is in column `corner`.
   PLEAT_KERNEL Vec3Lanes places(const Column<std::uint32_t>& corner, const std::uint32_t* feature) const {
     std::uint32_t index[kLanes];
@@ -126,7 +129,7 @@ struct CapsuleTest {
 bool CapsuleDetection::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr &&
          (capsule_count == 0 || (capsules != nullptr && blocks != nullptr)) && candidates != nullptr &&
-         candidates->near.size() >= FeatureWords(*garment).end * capsule_count && contacts.count != nullptr &&
+         candidates->near.size() >= std::size(kFeatureKinds) * capsule_count && contacts.count != nullptr &&
          packed != nullptr && thickness >= 0.0f && friction >= 0.0f && dt > 0.0f;
 }
 
@@ -139,11 +142,11 @@ void CapsuleDetection::run(Stats& stats) const {
     pack(position, inverse_mass, garment->particle_count, packed);
     const float margin = contact_margin_in_kernel(position, previous, garment->particle_count);
     const ContactRowMaker maker{previous, inverse_mass, friction, dt, contacts};
-    const std::uint64_t* near = candidates->near.data();
-    const std::size_t words = FeatureWords(*garment).end;
-    for (std::uint32_t c = 0; c < capsule_count; ++c, near += words) {
-      const bool none = std::all_of(near, near + words, [](std::uint64_t word) { return word == 0; });
-      if (!none) CapsuleTest{*this, maker, capsules[c], margin, near}.run(stats);
+    for (std::uint32_t c = 0; c < capsule_count; ++c) {
+      const auto has_any = [&](FeatureKind kind) { return candidates->of(c, kind).count != 0; };
+      if (std::any_of(std::begin(kFeatureKinds), std::end(kFeatureKinds), has_any)) {
+        CapsuleTest{*this, maker, capsules[c], margin, c}.run(stats);
+      }
     }
   });
 }

@@ -44,8 +44,6 @@ struct EdgeLanes {
 
   EdgeLanes() = default;
   PLEAT_KERNEL EdgeLanes(const Vec3Lanes& from, const Vec3Lanes& to) : start(from), along(to - from) {}
-  PLEAT_KERNEL EdgeLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j)
-      : start(gather(position, i)), along(gather(position, j) - start) {}
 };
 
 /// As closest_between_segments, in float: where the two are nearly parallel, off by up to kLaneRounding.
@@ -85,9 +83,7 @@ struct FaceLanes {
   Vec3Lanes middle;
   Lanes radius;  // m, of a ball about the middle that holds the face
 
-  PLEAT_KERNEL FaceLanes(ConstVec3View position, const std::uint32_t* i, const std::uint32_t* j, const std::uint32_t* k)
-      : a(gather(position, i)), b(gather(position, j)) {
-    const Vec3Lanes c = gather(position, k);
+  PLEAT_KERNEL FaceLanes(const Vec3Lanes& corner, const Vec3Lanes& second, const Vec3Lanes& c) : a(corner), b(second) {
     normal = unit(cross(b - a, c - a));
     past_ab = unit(cross(b - a, normal)), past_bc = unit(cross(c - b, normal)), past_ca = unit(cross(a - c, normal));
     middle = (a + b + c) * (1.0f / 3.0f);
@@ -135,13 +131,15 @@ struct FaceAreas {
   };
   PLEAT_KERNEL Pair have_below(const Vec3Lanes& p, const Vec3Lanes& q, float reach) const {
     const Vec3Lanes to_second = cross(v, area), to_third = cross(area, u);
-    const auto is_over = [&](const Vec3Lanes& point) {
-      const Vec3Lanes w = point - a;
-      const Lanes height = dot(w, area), second = dot(w, to_second), third = dot(w, to_third);
-      return (area2 > 1e-16f) & (height * height <= reach * reach * area2) & (second > 0.0f) & (third > 0.0f) &
-             (second + third < area2);
-    };
-    return {is_over(p), is_over(q)};
+    const Lanes most = area2 > 1e-16f ? reach * reach * area2 : all(-1.0f);
+    return {has_below(p - a, to_second, to_third, most), has_below(q - a, to_second, to_third, most)};
+  }
+
+ private:
+  PLEAT_KERNEL LaneMask has_below(const Vec3Lanes& w, const Vec3Lanes& to_second, const Vec3Lanes& to_third,
+                                  const Lanes& most) const {
+    const Lanes height = dot(w, area), second = dot(w, to_second), third = dot(w, to_third);
+    return (height * height <= most) & (second > 0.0f) & (third > 0.0f) & (second + third < area2);
   }
 };
 

@@ -27,20 +27,15 @@ struct NearPlaces {
     ++count;
   }
 
-  /// make(begin, count) for each eight, and for fewer where no more will come; the lanes behind hold a place too.
-  template <class Make>
-  PLEAT_KERNEL void hand_over(bool all, const Make& make) {
-    std::uint32_t begin = 0;
-    for (; begin + kLanes <= count; begin += kLanes) make(begin, kLanes);
-    const std::uint32_t rest = count - begin;
-    if (all && rest != 0) {
-      for (std::uint32_t k = count; k < begin + kLanes; ++k) copy(begin, k);
-      make(begin, rest);
-      count = 0;
-    } else {
-      for (std::uint32_t k = 0; begin != 0 && k < rest; ++k) copy(begin + k, k);
-      count = rest;
-    }
+  /// How many of the first lanes there are; the others are filled up with the first one.
+  PLEAT_KERNEL std::uint32_t first_lanes() {
+    for (std::uint32_t k = count; k < kLanes; ++k) copy(0, k);
+    return std::min(count, kLanes);
+  }
+  PLEAT_KERNEL void drop_lanes() {
+    const std::uint32_t left = count - std::min(count, kLanes);
+    for (std::uint32_t k = 0; k < left; ++k) copy(kLanes + k, k);
+    count = left;
   }
 
  private:
@@ -64,9 +59,9 @@ struct CapsuleRows {
 
   /// Rows that keep points of particles and edges on the side of the core where they were when the substep began. A
   /// particle is an edge from itself to itself, s = 0.
-  PLEAT_KERNEL void add_round(const NearPlaces& places, std::uint32_t begin, std::uint32_t count, Stats& stats) const {
-    Corners<2> at(*this, places, begin);
-    const Lanes s = load(places.s + begin), t = load(places.t + begin);
+  PLEAT_KERNEL void add_round(const NearPlaces& places, std::uint32_t count, Stats& stats) const {
+    Corners<2> at(*this, places);
+    const Lanes s = load(places.s), t = load(places.t);
     at.weight[0] = 1.0f - s, at.weight[1] = s;
     const Vec3Lanes on_core = core_at(t), step = step_at(t);
     const Vec3Lanes away = along(at.now[0], at.now[1], s) - on_core;
@@ -87,9 +82,9 @@ struct CapsuleRows {
   }
 
   /// Rows that keep faces on their side of an end of the core.
-  PLEAT_KERNEL void add_flat(const NearPlaces& places, std::uint32_t begin, std::uint32_t count, Stats& stats) const {
-    Corners<3> at(*this, places, begin);
-    const Lanes t = load(places.t + begin);
+  PLEAT_KERNEL void add_flat(const NearPlaces& places, std::uint32_t count, Stats& stats) const {
+    Corners<3> at(*this, places);
+    const Lanes t = load(places.t);
     const Vec3Lanes on_core = core_at(t), step = step_at(t);
     const FaceAreas faces(at.now[0], at.now[1], at.now[2]);
     const FootWeights foot(faces, on_core);
@@ -112,9 +107,9 @@ struct CapsuleRows {
     Vec3Lanes now[kCount], before[kCount];
     Lanes inverse_mass[kCount], weight[kCount];
 
-    PLEAT_KERNEL Corners(const CapsuleRows& rows, const NearPlaces& places, std::uint32_t begin) {
+    PLEAT_KERNEL Corners(const CapsuleRows& rows, const NearPlaces& places) {
       for (std::uint32_t k = 0; k < kCount; ++k) {
-        particle[k] = places.particle[k] + begin;
+        particle[k] = places.particle[k];
         const Vec4Lanes found = gather(rows.packed, particle[k]);
         now[k] = found.vector, inverse_mass[k] = found.w;
         before[k] = gather(rows.in.previous, particle[k]);

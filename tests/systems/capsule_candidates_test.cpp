@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -17,8 +18,7 @@ constexpr float kThickness = 0.005f, kDt = 0.002f;
 
 /// A skirt around two legs that swing, in substeps; cloth and legs travel together.
 struct Walk {
-  Mesh mesh =
-      make_rings(std::vector<Ring>{{11, 0.15f, 0.0f}, {11, 0.2f, -0.12f}, {11, 0.24f, -0.24f}, {11, 0.3f, -0.4f}});
+  Mesh mesh;
   ContactCloth cloth{mesh.positions, mesh.triangles};
   std::vector<CapsulePose> capsules;
   std::vector<std::uint64_t> all;
@@ -28,14 +28,15 @@ struct Walk {
   int steps = 0;
   std::mt19937 random{3};
 
-  Walk() {
+  explicit Walk(
+      const std::vector<Ring>& rings = {{11, 0.15f, 0.0f}, {11, 0.2f, -0.12f}, {11, 0.24f, -0.24f}, {11, 0.3f, -0.4f}})
+      : mesh(make_rings(rings)) {
     for (const float x : {-0.09f, 0.09f, 3.0f}) {
       capsules.push_back({.a = {x, 0, 0}, .b = {x, -0.42f, 0}, .step_a = {}, .step_b = {}, .radius = 0.08f});
       capsules.back().index = static_cast<std::uint32_t>(capsules.size());
     }
     capsules[1].taper = -0.03f;
-    cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
-    cloth.candidates.sought.resize(capsules.size());
+    cloth.candidates.make_room(cloth.garment, capsules.size());
     cloth.blocks.resize(capsule_blocks(capsules.size()));
   }
   void step() {
@@ -59,7 +60,8 @@ struct Walk {
             static_cast<std::uint32_t>(capsules.size()),
             kThickness,
             steps == 1,
-            &cloth.candidates};
+            &cloth.candidates,
+            cloth.scratch.data()};
   }
   std::vector<ContactRow> rows() {
     cloth.row_count = 0;
@@ -82,8 +84,8 @@ struct Walk {
   }
   bool same_as_without() {
     const std::vector<ContactRow> found = rows();
-    const std::vector<std::uint64_t> kept(cloth.candidates.near.begin(), cloth.candidates.near.end());
-    mark_all(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
+    const std::vector<NearFeatures> kept(cloth.candidates.near.begin(), cloth.candidates.near.end());
+    list_everything(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
     const std::vector<ContactRow> all_rows = rows();
     std::copy(kept.begin(), kept.end(), cloth.candidates.near.begin());
     row_count += all_rows.size();
@@ -117,6 +119,78 @@ TEST(CapsuleCandidates, RowsAreTheSameAsWithoutThemWhateverMoves) {
   EXPECT_GT(rows, 10000u);
 }
 
+/// Long edges with a corner far off that comes in, fast.
+TEST(CapsuleCandidates, FarCornersComeNear) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  int made = 0, kept = 0;
+  std::size_t rows = 0;
+  for (int n = 0; n < 200; ++n) {
+    Walk walk({{7, 0.16f, 0.0f}, {7, 0.3f, -0.2f}, {7, 0.45f, -0.35f}});
+    walk.swing = 2.0f * any(random);
+    std::vector<Vec3> way(walk.cloth.garment.particle_count);
+    for (std::uint32_t i = 0; i < way.size(); ++i) {
+      const Vec3 x = walk.cloth.x(i), inward = Vec3{-x.x, 0, -x.z} * (1.0f / std::hypot(x.x, x.z));
+      way[i] = (inward * (1.0f + any(random)) + Vec3{any(random), any(random), any(random)}) *
+               (0.012f * std::hypot(x.x, x.z));
+    }
+    for (int step = 0; step < 25; ++step) {
+      for (std::uint32_t i = 0; i < way.size(); ++i) walk.cloth.put(i, walk.cloth.x(i) + way[i], walk.cloth.x(i));
+      walk.step();
+      walk.candidates().run();
+      ++(walk.was_just_made() ? made : kept);
+      ASSERT_TRUE(walk.same_as_without()) << "walk " << n << ", step " << step;
+    }
+    rows += walk.row_count;
+  }
+  EXPECT_GT(made, 500);
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(rows, 5000u);
+}
+
+TEST(CapsuleCandidates, WhatHasNoRoomIsLookedAtAsAWhole) {
+  for (const std::size_t room : {0, 8, 40}) {
+    Walk walk;
+    walk.cloth.candidates.feature.resize(room);
+    walk.swing = 3.0f, walk.tremble = 0.002f;
+    int whole = 0;
+    for (int step = 0; step < 20; ++step) {
+      walk.step();
+      walk.candidates().run();
+      ASSERT_TRUE(walk.same_as_without()) << "room " << room << ", step " << step;
+      for (const NearFeatures& near : walk.cloth.candidates.near) whole += near.begin == NearFeatures::kAll;
+    }
+    EXPECT_GT(whole, 0) << room;
+    EXPECT_GT(walk.row_count, 100u) << room;
+  }
+}
+
+/// A leg that kicks, and the cloth with it.
+TEST(CapsuleCandidates, WhatTurnsTogetherIsLookedForOnce) {
+  Walk walk;
+  walk.capsules.resize(1);
+  const Vec3 hip = walk.capsules[0].a;
+  const auto turned = [&](const Vec3& p) {
+    constexpr float kAngle = 0.02f;  // a substep
+    const Vec3 q = p - hip;
+    return hip +
+           Vec3{q.x, q.y * std::cos(kAngle) - q.z * std::sin(kAngle), q.y * std::sin(kAngle) + q.z * std::cos(kAngle)};
+  };
+  walk.step();
+  walk.candidates().run();
+  for (int step = 0; step < 60; ++step) {
+    CapsulePose& leg = walk.capsules[0];
+    leg.step_b = turned(leg.b) - leg.b, leg.b += leg.step_b;
+    for (std::uint32_t i = 0; i < walk.cloth.garment.particle_count; ++i) {
+      walk.cloth.put(i, turned(walk.cloth.x(i)), walk.cloth.x(i));
+    }
+    ++walk.steps;
+    walk.candidates().run();
+    ASSERT_FALSE(walk.was_just_made()) << step;
+    ASSERT_TRUE(walk.same_as_without()) << step;
+  }
+}
+
 TEST(CapsuleCandidates, WhatTravelsTogetherIsLookedForOnce) {
   Walk walk;
   walk.velocity = {8, 0, 3};
@@ -131,10 +205,9 @@ TEST(CapsuleCandidates, AFarCapsuleHasNone) {
   Walk walk;
   walk.step();
   walk.candidates().run();
-  const FeatureWords words(walk.cloth.garment);
   const auto none = [&](std::uint32_t capsule) {
-    const std::uint64_t* near = walk.cloth.candidates.near.data() + words.end * capsule;
-    return std::all_of(near, near + words.end, [](std::uint64_t word) { return word == 0; });
+    return std::all_of(std::begin(kFeatureKinds), std::end(kFeatureKinds),
+                       [&](FeatureKind kind) { return walk.cloth.candidates.of(capsule, kind).count == 0; });
   };
   EXPECT_FALSE(none(0));
   EXPECT_FALSE(none(1));

@@ -18,8 +18,8 @@ constexpr float kThickness = 0.005f, kDt = 0.002f;
 /// With every feature a candidate.
 CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& capsules) {
   cloth.row_count = 0;
-  cloth.candidates.near.resize(FeatureWords(cloth.garment).end * capsules.size());
-  mark_all(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
+  cloth.candidates.make_room(cloth.garment, capsules.size());
+  list_everything(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
   cloth.blocks.resize(capsule_blocks(capsules.size()));
   return {&cloth.garment,
           cloth.position.view(),

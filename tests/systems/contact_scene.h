@@ -44,7 +44,6 @@ struct ContactCloth {
     for (Vec3Column* c : {&position, &previous, &velocity, &predicted, &force}) c->resize(positions.size());
     inverse_mass.resize(positions.size());
     scratch.resize(positions.size());
-    candidates.anchor.resize(positions.size());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
       put(i, positions[i], positions[i]);
       inverse_mass[i] = garment.pinned[i] != 0 ? 0.0f : 1000.0f;
@@ -67,14 +66,9 @@ struct ContactCloth {
 };
 
 /// Makes every feature of a cloth a candidate for every capsule.
-inline void mark_all(const Garment& g, std::uint32_t capsules, CapsuleCandidateColumns& candidates) {
-  const FeatureWords words(g);
-  std::uint64_t* near = candidates.near.data();
-  std::fill(near, near + words.end * capsules, 0);
-  for (std::uint32_t c = 0; c < capsules; ++c, near += words.end) {
-    for (std::uint32_t i = 0; i < g.particle_count; ++i) near[words.particles + i / 64] |= std::uint64_t{1} << i % 64;
-    for (std::uint32_t e = 0; e < g.edge_count; ++e) near[words.edges + e / 64] |= std::uint64_t{1} << e % 64;
-    for (std::uint32_t f = 0; f < g.face_count; ++f) near[words.faces + f / 64] |= std::uint64_t{1} << f % 64;
+inline void list_everything(const Garment& g, std::uint32_t capsules, CapsuleCandidateColumns& candidates) {
+  for (std::uint32_t c = 0; c < capsules; ++c) {
+    for (const FeatureKind kind : kFeatureKinds) candidates.of(c, kind) = {NearFeatures::kAll, count_of(g, kind)};
   }
 }
 
