@@ -1,7 +1,7 @@
 // What the choice of a side for the folds works on: scratch of the system fold_sides.
 #pragma once
 
-#include "components/lanes.h"
+#include "components/fold_curve.h"
 
 namespace pleat {
 
@@ -15,6 +15,7 @@ struct FoldSprings {
 
 /// Edges that may fold to either side of their curves, and the springs between them.
 struct FoldChoices {
+  Column<FoldCurve> curves;        // (E / kLanes, rounded up)
   Column<Vec4> middle, direction;  // (E) m and, w, m of rest length; unit
   Column<float> up, down;          // (E) m, heights of the two folds, up >= 0 >= down
   Column<float> side;              // (E) -1 .. 1: down, undecided or up
@@ -24,10 +25,10 @@ struct FoldChoices {
   Column<FoldSprings> springs;     // (F / kLanes, rounded up)
 
   explicit FoldChoices(std::pmr::memory_resource* m)
-      : middle(m), direction(m), up(m), down(m), side(m), height(m), bump(m), gain(m), springs(m) {}
+      : curves(m), middle(m), direction(m), up(m), down(m), side(m), height(m), bump(m), gain(m), springs(m) {}
   void make_room(std::size_t edges, std::size_t faces) {
     if (gain.size() < edges) {
-      middle.resize(edges), direction.resize(edges);
+      curves.resize((edges + kLanes - 1) / kLanes), middle.resize(edges), direction.resize(edges);
       for (Column<float>* c : {&up, &down, &side, &height, &bump, &gain}) c->resize(edges);
     }
     if (springs.size() * kLanes < faces) springs.resize((faces + kLanes - 1) / kLanes);

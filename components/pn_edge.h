@@ -25,6 +25,7 @@ template <class T>
 struct PnEdgeT {
   Vec3T<T> a, d, u, v;
 
+  PnEdgeT() = default;
   /// a, b: the ends, m; na, nb: their unit normals.
   PLEAT_KERNEL PnEdgeT(const Vec3T<T>& a_, const Vec3T<T>& b, const Vec3T<T>& na, const Vec3T<T>& nb)
       : a(a_), d(b - a_), u(na * dot(d, na)), v(nb * -dot(d, nb)) {}

@@ -65,6 +65,11 @@ float* bulge(const ClothTick& t) {
   return asked && Tessellation::tells_bulge(surface_mode(t.settings)) ? t.worker.bulge.data() : nullptr;
 }
 
+/// Where fold sides have made them already.
+const FoldCurve* fold_curves(const ClothTick& t) {
+  return with_sides(t.world, t.cloth) == kNeeded ? t.worker.fold_choices.curves.data() : nullptr;
+}
+
 constexpr Row kRows[] = {
     {Phase::kFrameEnd, "particle_normals", with_normals,
      [](ClothTick& t) {
@@ -92,7 +97,8 @@ constexpr Row kRows[] = {
                       .normal = t.normal,
                       .fold = t.fold,
                       .fold_height = t.fold_height,
-                      .side = t.fold_side});
+                      .side = t.fold_side,
+                      .curves = fold_curves(t)});
      }},
     {Phase::kFrameEnd, "fold_relaxation", with_fold_relaxation,
      [](ClothTick& t) {
@@ -118,6 +124,7 @@ constexpr Row kRows[] = {
                         .fold = t.fold,
                         .fold_height = t.fold_height,
                         .drawn_position = t.drawn_position,
+                        .curves = fold_curves(t),
                         .bulge = bulge(t)});
      }},
 #ifdef PLEAT_WITH_COLLISION

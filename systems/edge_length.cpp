@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "components/edge_block.h"
 #include "components/wide.h"
 
 namespace pleat {
@@ -21,12 +20,11 @@ struct Fold {
   T height;
 };
 
-PLEAT_KERNEL Fold<Lanes> pleat_fold(const PnEdgeT<Lanes>& c, const Vec3Lanes& normals, const Lanes& target,
-                                    const Lanes& chosen_side) {
+PLEAT_KERNEL Fold<Lanes> pleat_fold(const FoldCurve& edges, const Lanes& target, const Lanes& chosen_side) {
+  const PnEdgeT<Lanes>& c = edges.curve;
+  const auto& [n, defined] = edges.fold;
   const PnEdgeSpeeds<Lanes> speed2 = squared_speeds(c);
   const Lanes length0 = curve_length<Lanes>(speed2);
-
-  const auto [n, defined] = fold_direction(c.middle_tangent(), normals);
 
   // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
   const Lanes dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
@@ -59,8 +57,10 @@ PLEAT_KERNEL void run_pleat(const EdgeLength& s) {
   const Garment& g = *s.garment;
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - e);
-    const EdgeBlock block(g, s.position, s.normal, e);
-    const Fold<Lanes> fold = pleat_fold(block.curve(), block.na + block.nb, block.target, load(s.side + e));
+    const Lanes target = load(g.edge_rest_curve_length.data() + e), side = load(s.side + e);
+    const Fold<Lanes> fold = s.curves != nullptr
+                                 ? pleat_fold(s.curves[e / kLanes], target, side)
+                                 : pleat_fold(FoldCurve(EdgeBlock(g, s.position, s.normal, e)), target, side);
     store(fold.direction, s.fold, e, count);
     store(fold.height, s.fold_height + e, count);
   }

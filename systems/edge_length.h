@@ -2,6 +2,7 @@
 //   M. Oshita, A. Makinouchi, "Real-time Cloth Simulation with Sparse Particles and Curved Faces", 2001, section 3.3.
 #pragma once
 
+#include "components/fold_curve.h"
 #include "components/garment.h"
 #include "components/surface.h"
 
@@ -30,7 +31,8 @@ struct EdgeLength {
   ConstVec3View normal;
   Vec3View fold;
   float* fold_height = nullptr;
-  const float* side = nullptr;  // a column, whose padding is read, as fold_sides leaves it; kPleat only
+  const float* side = nullptr;        // a column, whose padding is read, as fold_sides leaves it; kPleat only
+  const FoldCurve* curves = nullptr;  // as fold_sides left them, or null, for them to be made anew; kPleat only
 
   bool validate() const;
   void run() const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/edge_block.h"
 #include "components/wide.h"
 
 namespace pleat {
@@ -30,18 +29,20 @@ PLEAT_KERNEL void guess(const FoldSides& s) {
   const Garment& g = *s.garment;
   FoldChoices& c = *s.choices;
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
-    const EdgeBlock block(g, s.position, s.normal, e);
-    const PnEdgeT<Lanes> curve = block.curve();
-    const auto [n, defined] = fold_direction(curve.middle_tangent(), block.na + block.nb);
-    const Lanes length0 = mean_square_length(curve), slope = -0.5f * dot(curve.u + curve.v, n) / (block.target + kTiny);
-    const Lanes up = defined * fold_height(length0, block.target, slope).height;
-    const Lanes down = -defined * fold_height(length0, block.target, -slope).height;
+    const FoldCurve edges(EdgeBlock(g, s.position, s.normal, e));
+    c.curves[e / kLanes] = edges;
+    const auto& [curve, fold] = edges;
+    const auto& [n, defined] = fold;
+    const Lanes target = load(g.edge_rest_curve_length.data() + e);
+    const Lanes length0 = mean_square_length(curve), slope = -0.5f * dot(curve.u + curve.v, n) / (target + kTiny);
+    const Lanes up = defined * fold_height(length0, target, slope).height;
+    const Lanes down = -defined * fold_height(length0, target, -slope).height;
     const Lanes side = saturate(slope * (1.0f / kSureSide));
     pack(curve.middle(), load(g.edge_rest_length.data() + e), c.middle.data() + e);
     pack(n, Lanes{}, c.direction.data() + e);
     store(up, c.up.data() + e), store(down, c.down.data() + e);
     store(side, c.side.data() + e), store(height_at(side, up, down), c.height.data() + e);
-    store(kBump * (down * down - up * up) / (block.target * block.target + kTiny), c.bump.data() + e);
+    store(kBump * (down * down - up * up) / (target * target + kTiny), c.bump.data() + e);
     store(Lanes{}, c.gain.data() + e);
   }
 }

@@ -14,7 +14,7 @@ namespace pleat {
 /// in time, through no fold at all, so that nothing pops.
 /// Reads:  garment faces, edges and rest lengths; position (P) m; normal (N) unit
 /// Writes: side (E), -1 .. 1: against, undecided or along the sum of the normals at the edge's ends; read as well, as
-///         the last frame left it; choices, scratch
+///         the last frame left it; choices, scratch, of which others may read the curves
 /// Cost:   O(E + F), no allocation. Errors: none.
 struct FoldSides {
   const Garment* garment = nullptr;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "components/arc_pn.h"
-#include "components/edge_block.h"
 #include "components/lane_rows.h"
 #include "components/projected_triangle.h"
 #include "components/wide.h"
@@ -61,8 +60,13 @@ PLEAT_KERNEL void draw_curved_edges(const Tessellation& s) {
   LaneRows rows;
   for (std::uint32_t e = 0; e < g.edge_count; e += kLanes) {
     const std::uint32_t count = std::min(kLanes, g.edge_count - e);
-    const EdgeBlock block(g, s.position, s.normal, e);
-    const PnEdgeT<Lanes> edge = curved_edge<mode>(block.a, block.b, block.na, block.nb);
+    PnEdgeT<Lanes> edge;
+    if (mode == SurfaceMode::kPleat && s.curves != nullptr) {
+      edge = s.curves[e / kLanes].curve;
+    } else {
+      const EdgeBlock block(g, s.position, s.normal, e);
+      edge = curved_edge<mode>(block.a, block.b, block.na, block.nb);
+    }
     Vec3Lanes moved{};
     if constexpr (mode == SurfaceMode::kPleat) moved = load(s.fold, e) * load(s.fold_height + e);
     for (std::uint32_t i = 0; i < pattern.segments - 1; ++i) {

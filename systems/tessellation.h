@@ -3,6 +3,7 @@
 //   sections 3.1, 3.3.
 #pragma once
 
+#include "components/fold_curve.h"
 #include "components/surface.h"
 #include "components/tessellation_pattern.h"
 
@@ -32,7 +33,8 @@ struct Tessellation {
   ConstVec3View fold;
   const float* fold_height = nullptr;
   Vec3View drawn_position;
-  float* bulge = nullptr;  // a column, or null; only for modes that tell it
+  const FoldCurve* curves = nullptr;  // as fold_sides left them, or null, for them to be made anew; kPleat only
+  float* bulge = nullptr;             // a column, or null; only for modes that tell it
 
   static bool tells_bulge(SurfaceMode mode);
   bool validate() const;
