@@ -28,13 +28,21 @@ PLEAT_KERNEL Fold<Lanes> pleat_fold(const FoldCurve& edges, const Lanes& target,
 
   // |c' + h s' n|^2 = |c'|^2 + 2 h rise + (h s')^2
   const Lanes dn = dot(c.d, n), un = dot(c.u, n), vn = dot(c.v, n);
-  PnEdgeSpeeds<Lanes> rise;
-  Lanes slope{};  // dL/dh at h = 0
+  PnEdgeSpeeds<Lanes> rise, speed;
   for (std::size_t i = 0; i < kPnEdgeNodes.size(); ++i) {
     const PnEdgeNode& q = kPnEdgeNodes[i];
     rise[i] = q.fold_rate * (dn + q.u_rate * un + q.v_rate * vn);
-    slope += q.weight * rise[i] / sqrt(speed2[i]);
+    speed[i] = sqrt(speed2[i]);
   }
+  // dL/dh at h = 0, the sum of weight * rise / speed, four of them over one denominator.
+  const auto four = [&](std::size_t i) {
+    const auto part = [&](std::size_t k) { return kPnEdgeNodes[k].weight * rise[k]; };
+    const Lanes first = speed[i] * speed[i + 1], second = speed[i + 2] * speed[i + 3];
+    return ((part(i) * speed[i + 1] + part(i + 1) * speed[i]) * second +
+            (part(i + 2) * speed[i + 3] + part(i + 3) * speed[i + 2]) * first) /
+           (first * second);
+  };
+  Lanes slope = four(0) + four(4);
   const Lanes side = chosen_side < 0.0f ? all(-1.0f) : all(1.0f);
   slope *= side;
 
