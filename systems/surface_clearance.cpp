@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 
 #include "systems/capsule_lanes.h"
 
@@ -41,7 +42,8 @@ struct FaceGroup {
   /// Not where the coarse triangle is further from the core than the largest motion of a vertex and what is kept, as
   /// either of two directions shows: that from the core's point nearest to the center, which has all of the core
   /// behind it, and the triangle's normal.
-  PLEAT_KERNEL LaneMask may_touch(const Core& core, float kept) const {
+  PLEAT_KERNEL LaneMask may_touch(const Core& core) const {
+    const float kept = core.reach;
     const Vec3Lanes away = away_from(core, center);
     const Lanes around = kept + size + bulge, distance2 = dot(away, away);
     const LaneMask near = distance2 < around * around;
@@ -55,6 +57,12 @@ struct FaceGroup {
     const LaneMask aside = (a * b > 0.0f) & (min(a * a, b * b) >= far2 * dot(area, area));
     return near & ~(apart | aside);
   }
+};
+
+/// Not to be zeroed before they are made.
+union Cores {
+  Core each[kLanes];
+  Cores() {}
 };
 
 constexpr std::size_t kMostTriangles = 4 * kMaxTessellationLevel * kMaxTessellationLevel;  // of a face
@@ -188,31 +196,53 @@ struct Lifter {
   }
 
   PLEAT_KERNEL void run() {
-    for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
-      FaceGroup faces(in, begin, in.bulge != nullptr && settled == 0);
-      const std::uint32_t valid = bits(first_lanes(in.garment->face_count - begin));
-      const auto for_each = [&](std::uint32_t near, const auto& visit) {
-        const std::uint32_t before = settled;
-        for (near &= valid; near != 0; near &= near - 1) visit(static_cast<std::uint32_t>(std::countr_zero(near)));
-        if (settled != before) faces = FaceGroup(in, begin, false);
-      };
-      for (std::size_t k = 0; k < in.half_space_count; ++k) {
-        if (!in.half_spaces[k].enabled) continue;
-        const PlanePose body(in.half_spaces[k], in.t);
-        const Lanes reach = body.height + in.clearance + faces.size + 2.0f * faces.bulge;
-        for_each(bits(dot(all(body.normal), faces.center) < reach),
-                 [&](std::uint32_t lane) { keep_above(begin + lane, faces.bulge[lane], body); });
-      }
-      for (std::uint32_t k = 0; k < in.capsule_count; ++k) {
-        const float kept = widest_radius(in.capsules[k]) + in.clearance;
-        for_each(bits(faces.may_touch(Core(in.capsules[k], 0.0f), kept)), [&](std::uint32_t lane) {
-          pairs.add(begin + lane, k);
-          if (pairs.count == kLanes) keep_apart();
-        });
-      }
+    for (std::size_t k = 0; k < in.half_space_count; ++k) {
+      if (in.half_spaces[k].enabled) look_at(PlanePose(in.half_spaces[k], in.t));
     }
+    for (std::uint32_t k = 0; k < in.capsule_count; k += kLanes) look_at(k, std::min(kLanes, in.capsule_count - k));
     if (pairs.count != 0) keep_apart();
     if (planes.count != 0) add_planes();
+  }
+
+  /// Of eight faces, as their vertices are now; a bit for each that there is.
+  PLEAT_KERNEL FaceGroup group(std::uint32_t begin) const {
+    return FaceGroup(in, begin, in.bulge != nullptr && settled == 0);
+  }
+  PLEAT_KERNEL std::uint32_t valid(std::uint32_t begin) const {
+    return bits(first_lanes(in.garment->face_count - begin));
+  }
+
+  PLEAT_KERNEL void look_at(const PlanePose& body) {
+    for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
+      const FaceGroup faces = group(begin);
+      const Lanes reach = body.height + in.clearance + faces.size + 2.0f * faces.bulge;
+      std::uint32_t near = bits(dot(all(body.normal), faces.center) < reach) & valid(begin);
+      for (; near != 0; near &= near - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+        keep_above(begin + lane, faces.bulge[lane], body);
+      }
+    }
+  }
+
+  /// Capsules from `first` on, at most as many as there are lanes.
+  PLEAT_KERNEL void look_at(std::uint32_t first, std::uint32_t count) {
+    Cores cores;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const CapsulePose& capsule = in.capsules[first + k];
+      std::construct_at(cores.each + k, capsule, widest_radius(capsule) + in.clearance);
+    }
+    for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
+      FaceGroup faces = group(begin);
+      for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t before = settled;
+        std::uint32_t near = bits(faces.may_touch(cores.each[k])) & valid(begin);
+        for (; near != 0; near &= near - 1) {
+          pairs.add(begin + static_cast<std::uint32_t>(std::countr_zero(near)), first + k);
+          if (pairs.count == kLanes) keep_apart();
+        }
+        if (settled != before) faces = group(begin);
+      }
+    }
   }
 
   /// A half-space is its own plane for every vertex, also for those that a capsule may still move by a bulge.
