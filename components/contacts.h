@@ -35,7 +35,9 @@ inline Vec3 contact_point(const ContactRow& row, ConstVec3View x) {
 /// The same of a packed column, the fourth number of which means nothing here.
 inline Vec3 contact_point(const ContactRow& row, const Vec4* x) {
   Four point = load_four(x[row.particle[0]]) * row.weight[0];
-  for (std::uint32_t k = 1; k < row.count; ++k) point += load_four(x[row.particle[k]]) * row.weight[k];
+  if (row.count > 1) point += load_four(x[row.particle[1]]) * row.weight[1];
+  if (row.count > 2) point += load_four(x[row.particle[2]]) * row.weight[2];
+  if (row.count > 3) point += load_four(x[row.particle[3]]) * row.weight[3];
   return {point[0], point[1], point[2]};
 }
 
@@ -45,10 +47,14 @@ inline void shift_contact(const ContactRow& row, const Vec3& shift, Vec3View x) 
 }
 inline void shift_contact(const ContactRow& row, const Vec3& shift, Vec4* x) {
   const Four four{shift.x, shift.y, shift.z, 0.0f};
-  for (std::uint32_t k = 0; k < row.count; ++k) {
+  const auto move = [&](std::uint32_t k) {
     Vec4& at = x[row.particle[k]];
     store(load_four(at) + four * row.share[k], at);
-  }
+  };
+  move(0);
+  if (row.count > 1) move(1);
+  if (row.count > 2) move(2);
+  if (row.count > 3) move(3);
 }
 
 /// A fixed-capacity list of rows in the engine's scratch memory; filled once per substep.

@@ -139,11 +139,13 @@ struct CapsuleRows {
     Lanes given{};
     const float room = thickness + largest(valid ? length(places - core_there) + missing : all(-1e3f));
     for (std::uint32_t first = 0; first < capsule_count; first += kLanes) {
-      std::uint32_t pressing = bits(may_press(blocks[first / kLanes], core, room));
+      const CapsuleBlock& block = blocks[first / kLanes];
+      std::uint32_t pressing = bits(may_press(block, core, room));
       for (; pressing != 0; pressing &= pressing - 1) {
-        const CapsulePose& other = capsules[first + static_cast<std::uint32_t>(std::countr_zero(pressing))];
+        const int c = std::countr_zero(pressing);
+        const CapsulePose& other = capsules[first + static_cast<std::uint32_t>(c)];
         if (&other == &capsule) continue;
-        std::uint32_t pressed = bits(may_be_pressed(other, places, normals, missing) & valid);
+        std::uint32_t pressed = bits(may_be_pressed(block, c, places, normals, missing) & valid);
         for (; pressed != 0; pressed &= pressed - 1) {
           const int k = std::countr_zero(pressed);
           const Vec3 p{places.x[k], places.y[k], places.z[k]}, normal{normals.x[k], normals.y[k], normals.z[k]};
@@ -153,15 +155,18 @@ struct CapsuleRows {
     }
     return given;
   }
-  /// Which places may be nearer to the other capsule than they should, and not have it behind them where they are to be
-  /// moved along their normals. One that tapers counts as if it were as thick all along.
-  PLEAT_KERNEL LaneMask may_be_pressed(const CapsulePose& other, const Vec3Lanes& places, const Vec3Lanes& normals,
-                                       const Lanes& missing) const {
-    const Core its_core(other, 0.0f);
-    const Lanes a_behind = dot(normals, places - its_core.a), b_behind = a_behind - dot(normals, its_core.axis);
-    const Vec3Lanes away = away_from(its_core, places);
-    const Lanes needed = missing + (widest_radius(other) + thickness + kLaneRounding);
-    return (min(a_behind, b_behind) < kLaneRounding) & (needed > 0.0f) & (dot(away, away) < needed * needed);
+  /// Which places may be nearer to capsule c of a block than they should, and not have it behind them where they are to
+  /// be moved along their normals. One that tapers counts as if it were as thick all along.
+  PLEAT_KERNEL LaneMask may_be_pressed(const CapsuleBlock& block, int c, const Vec3Lanes& places,
+                                       const Vec3Lanes& normals, const Lanes& missing) const {
+    const Vec3Lanes axis{all(block.axis.x[c]), all(block.axis.y[c]), all(block.axis.z[c])};
+    const Vec3Lanes from_a = places - Vec3Lanes{all(block.a.x[c]), all(block.a.y[c]), all(block.a.z[c])};
+    const Vec3Lanes away = from_a - axis * clamped(dot(from_a, axis) * block.inverse[c]);
+    const Lanes needed = missing + (block.widest[c] + thickness + kLaneRounding);
+    const LaneMask near = (needed > 0.0f) & (dot(away, away) < needed * needed);
+    if (!any(near)) return near;
+    const Lanes a_behind = dot(normals, from_a), b_behind = a_behind - dot(normals, axis);
+    return near & (min(a_behind, b_behind) < kLaneRounding);
   }
   PLEAT_KERNEL float given_up_to(const CapsulePose& other, const Vec3& p, const Vec3& normal, float missing) const {
     const float t = closest_on_capsule(p, other);
