@@ -36,24 +36,29 @@ struct NearFeatures {
   std::uint32_t begin = 0, count = 0;
 };
 
-/// The candidates of one cloth. They can be relied on while they are of the same capsules and nothing came closer than
-/// they allow for, see CapsuleCandidates.
+/// The candidates of one cloth. They can be relied on while they are of the same garment and capsules and nothing came
+/// closer than they allow for, see CapsuleCandidates.
 struct CapsuleCandidateColumns {
-  Column<NearFeatures> near;       // of each kind for each capsule; size() is the room
-  Column<std::uint32_t> feature;   // that these are in
-  Column<std::uint64_t> marked;    // scratch: a set for each capsule
-  Column<CapsulePose> sought;      // the capsules as they were, ascending by index
-  Vec3Column anchor;               // (P) m, where particles were
+  Column<NearFeatures> near;      // of each kind for each capsule; size() is the room
+  Column<std::uint32_t> feature;  // that these are in
+  Column<std::uint64_t> marked;   // scratch: a set for each capsule
+  Column<CapsulePose> sought;     // the capsules as they were, ascending by index
+  Vec3Column anchor;              // (P) m, where particles were
+  Column<float> room;             // (P, padded) for each capsule, m: CapsuleCandidates
+  const Garment* garment = nullptr;
   std::uint32_t sought_count = 0;  // of capsules
+  float thickness = 0.0f;          // of the cloth, m
   float margin = 0.0f;             // m, what is looked for besides radius and thickness
-  float longest_edge = 0.0f;       // m, as it was
 
   explicit CapsuleCandidateColumns(std::pmr::memory_resource* m)
-      : near(m), feature(m), marked(m), sought(m), anchor(m) {}
+      : near(m), feature(m), marked(m), sought(m), anchor(m), room(m) {}
 
   NearFeatures& of(std::uint32_t capsule, FeatureKind kind) { return near.data()[place(capsule, kind)]; }
   const NearFeatures& of(std::uint32_t capsule, FeatureKind kind) const { return near.data()[place(capsule, kind)]; }
 
+  float* room_of(const Garment& g, std::uint32_t capsule) { return room.data() + capsule * padded(g.particle_count); }
+
+  /// Forgets what was found: another garment may come to be where this one was.
   void make_room(const Garment& g, std::size_t capsules) {
     const std::size_t words = FeatureWords(g).end;
     const auto at_least = [](auto& column, std::size_t size) {
@@ -64,10 +69,13 @@ struct CapsuleCandidateColumns {
     at_least(marked, words * capsules);
     at_least(sought, capsules);
     at_least(anchor, g.particle_count);
+    at_least(room, padded(g.particle_count) * capsules);
+    garment = nullptr;
   }
   bool holds(const Garment& g, std::size_t capsules) const {
     return near.size() >= std::size(kFeatureKinds) * capsules && marked.size() >= FeatureWords(g).end * capsules &&
-           sought.size() >= capsules && anchor.size() >= g.particle_count;
+           sought.size() >= capsules && anchor.size() >= g.particle_count &&
+           room.size() >= padded(g.particle_count) * capsules;
   }
 
  private:

@@ -187,7 +187,6 @@ constexpr Row kRows[] = {
                              .capsules = t.worker.capsule_poses.data(),
                              .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
-                             .first = t.t0 == 0.0f,
                              .candidates = &t.worker.capsule_candidates,
                              .packed = t.worker.packed.position.data()});
      }},

@@ -15,11 +15,8 @@ namespace {
 /// Carries a capsule back to where it was, and the cloth with it: a turn about its end a that takes its axis back
 /// where that is within 120 degrees.
 struct WayBack {
-  Vec3 from, to;      // end a now and then, m
-  Vec3 column[3];     // of the turn
-  float left = 0.0f;  // of the motion of end b, m
-
-  static constexpr float kRounding = 1e-5f;  // m
+  Vec3 from, to;   // end a now and then, m
+  Vec3 column[3];  // of the turn
 
   WayBack(const CapsulePose& now, const CapsulePose& then) : from(now.a), to(then.a) {
     const Vec3 axis = normalized_or(now.b - now.a, {}), old_axis = normalized_or(then.b - then.a, {});
@@ -31,7 +28,6 @@ struct WayBack {
       const Vec3 across = cross(turn, unit[k]);
       column[k] = unit[k] + across + cross(turn, across) * (1.0f / std::max(1.0f + cosine, 0.5f));
     }
-    left = length(at(now.b) - then.b) + kRounding;
   }
   Vec3 at(const Vec3& p) const {
     const Vec3 q = p - from;
@@ -43,51 +39,44 @@ struct WayBack {
   }
 };
 
-/// The farthest that a particle has moved against the ends of a core, and so against any of it, squared, m2.
-PLEAT_KERNEL float motion2_against(const CapsuleCandidates& in, const CapsulePose& now, const CapsulePose& then) {
+/// Whether a particle has moved, seen from a capsule, by more than the room it had. What is `taken` of that: how far
+/// the capsule's end b has moved against a, m.
+template <class Carry>
+PLEAT_KERNEL bool is_out_of_room(const CapsuleCandidates& in, const float* room, float taken, const Carry& carry) {
   const ConstVec3View anchor = in.candidates->anchor.view();
-  const Vec3Lanes of_a = all(now.a - then.a), of_b = all(now.b - then.b);
-  return largest(in.garment->particle_count, [&](std::size_t i) {
-    const Vec3Lanes motion = load(in.position, i) - load(anchor, i), a = motion - of_a, b = motion - of_b;
-    return max(dot(a, a), dot(b, b));
+  const float out = largest(in.garment->particle_count, [&](std::size_t i) {
+    const Vec3Lanes motion = carry(load(in.position, i)) - load(anchor, i);
+    const Lanes left = max(load(room + i) - taken, Lanes{});
+    return dot(motion, motion) <= left * left ? Lanes{} : all(1.0f);  // what is not finite is out too
   });
+  return out != 0.0f;
 }
 
-/// Whether a feature that was not near a capsule may be near it now. As long as the corners of a feature have moved
-/// against the core by no more than `skin`, it is not; nor as long as they have moved by no more than they were too far
-/// away, each less the longest edge, for no point of the feature was farther from them than that.
-PLEAT_KERNEL bool may_be_near(const CapsuleCandidates& in, const CapsulePose& now, const CapsulePose& then, float skin,
-                              float margin) {
-  const ConstVec3View anchor = in.candidates->anchor.view();
-  const WayBack back(now, then);
-  const float most = skin - back.left;
-  if (!(most >= 0.0f)) return true;
-  const float reach = std::max(widest_radius(now), widest_radius(then)) + in.thickness + margin + kLaneRounding;
-  const Core core(then, 0.0f);
-  for (std::uint32_t i = 0; i < in.garment->particle_count; i += kLanes) {
-    const Vec3Lanes at = load(anchor, i), motion = back.at(load(in.position, i)) - at;
-    const Lanes motion2 = dot(motion, motion);
-    LaneMask beyond = ~(motion2 <= most * most) & first_lanes(in.garment->particle_count - i);
-    if (!any(beyond)) continue;
-    const Lanes room = length(away_from(core, at)) - (in.candidates->longest_edge + reach + back.left);
-    beyond &= ~((room > 0.0f) & (motion2 <= room * room));
-    if (any(beyond)) return true;
-  }
-  return false;
-}
-
+/// Whether a feature that is not listed may be near now.
 PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in, float margin) {
-  const float skin = in.candidates->margin - kLaneRounding - margin;
-  if (!(skin >= 0.0f)) return true;
+  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;  // m
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
-    if (!(motion2_against(in, now, then) <= skin * skin) && may_be_near(in, now, then, skin, margin)) return true;
+    const float* room = in.candidates->room_of(*in.garment, c);
+    const Vec3 shift = then.a - now.a;
+    const float turned = length(then.b - now.b - shift);
+    if (turned < kStraight) {
+      const Vec3Lanes back = all(shift);
+      const float taken = turned + margin + kLaneRounding;
+      if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return x + back; })) return true;
+    } else {
+      const WayBack back(now, then);
+      const float taken = length(back.at(now.b) - then.b) + kTurnRounding + margin + kLaneRounding;
+      if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return back.at(x); })) return true;
+    }
   }
   return false;
 }
 
 bool same_capsules(const CapsuleCandidates& in) {
-  const auto same = [](const CapsulePose& p, const CapsulePose& q) { return p.index == q.index; };
+  const auto same = [](const CapsulePose& p, const CapsulePose& q) {
+    return p.index == q.index && widest_radius(p) == widest_radius(q);
+  };
   return in.capsule_count == in.candidates->sought_count &&
          std::equal(in.capsules, in.capsules + in.capsule_count, in.candidates->sought.begin(), same);
 }
@@ -99,49 +88,63 @@ union Room {
   Room() {}
 };
 
-/// Marks one kind of features, which begin at `word` of each capsule's set, a word at a time. Columns' padding belongs
-/// to particle 0.
-template <class Features, class MakeFeatures>
+/// Marks one kind of features, whose corners are in the columns `corner`, a word at a time; and what is not marked but
+/// nearer than kFar leaves its particles that much room. Columns' padding belongs to particle 0.
+template <class Features, std::size_t kCorners, class MakeFeatures>
 PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::uint32_t count,
-                            const MakeFeatures& make) {
+                            const std::uint32_t* const (&corner)[kCorners], const MakeFeatures& make) {
   constexpr std::uint32_t kBits = 64;
   const std::size_t words = FeatureWords(*in.garment).end;
   for (std::uint32_t begin = 0; begin < count; begin += kBits) {
     const std::uint32_t rest = std::min(count - begin, kBits);
-    const std::uint64_t used = ~std::uint64_t{0} >> (kBits - rest);
-    Room<Features> room;
-    Features* features = room.places;
-    for (std::uint32_t k = 0; k < rest; k += kLanes) std::construct_at(features + k / kLanes, make(begin + k));
+    Room<Features> features;
+    for (std::uint32_t k = 0; k < rest; k += kLanes) {
+      std::construct_at(features.places + k / kLanes, make(begin + k));
+    }
     std::uint64_t* at = in.candidates->marked.data() + word + begin / kBits;
     for (std::uint32_t c = 0; c < in.capsule_count; ++c, at += words) {
-      const Core core(in.capsules[c], widest_radius(in.capsules[c]) + in.thickness + in.candidates->margin);
+      const float surface = widest_radius(in.capsules[c]) + in.thickness, within = surface + in.candidates->margin;
+      const Core core(in.capsules[c], std::max(within, surface + CapsuleCandidates::kFar));
+      float* room = in.candidates->room_of(*in.garment, c);
       std::uint64_t marks = 0;
       for (std::uint32_t k = 0; k < rest; k += kLanes) {
-        marks |= std::uint64_t{bits(is_near(core, features[k / kLanes]))} << k;
+        const Lanes distance2 = distance2_from(core, features.places[k / kLanes]);
+        const std::uint32_t used = (1u << std::min(rest - k, kLanes)) - 1;
+        const std::uint32_t near = bits(distance2 < within * within) & used;
+        marks |= std::uint64_t{near} << k;
+        for (std::uint32_t far = bits(distance2 < core.reach2) & used & ~near; far != 0; far &= far - 1) {
+          const auto lane = static_cast<std::uint32_t>(std::countr_zero(far));
+          const float away = std::sqrt(distance2[lane]) - surface;
+          for (const std::uint32_t* particle : corner) {
+            float& left = room[particle == nullptr ? begin + k + lane : particle[begin + k + lane]];
+            left = std::min(left, away);
+          }
+        }
       }
-      *at = marks & used;
+      *at = marks;
     }
   }
+}
+
+PLEAT_KERNEL Vec3Lanes places(const Vec4* x, const std::uint32_t* corner, std::size_t first) {
+  return gather(x, corner + first).vector;
 }
 
 PLEAT_KERNEL void mark_all(const CapsuleCandidates& in) {
   const Garment& g = *in.garment;
   const FeatureWords words(g);
   const Vec4* x = in.packed;
-  const auto places = [x](const Column<std::uint32_t>& corner, std::size_t first) {
-    return gather(x, corner.data() + first).vector;
-  };
-  Lanes longest2{};
-  mark_near<Vec3Lanes>(in, words.particles, g.particle_count, [&](std::size_t i) { return load(in.position, i); });
-  mark_near<EdgeLanes>(in, words.edges, g.edge_count, [&](std::size_t e) {
-    const EdgeLanes edges(places(g.edge_particle[0], e), places(g.edge_particle[1], e));
-    longest2 = max(dot(edges.along, edges.along), longest2);
-    return edges;
+  std::fill_n(in.candidates->room.data(), padded(g.particle_count) * in.capsule_count, CapsuleCandidates::kFar);
+  mark_near<Vec3Lanes>(in, words.particles, g.particle_count, {nullptr},
+                       [&](std::size_t i) { return load(in.position, i); });
+  const std::uint32_t* const end[] = {g.edge_particle[0].data(), g.edge_particle[1].data()};
+  mark_near<EdgeLanes>(in, words.edges, g.edge_count, end,
+                       [&](std::size_t e) { return EdgeLanes(places(x, end[0], e), places(x, end[1], e)); });
+  const std::uint32_t* const corner[] = {g.face_particle[0].data(), g.face_particle[1].data(),
+                                         g.face_particle[2].data()};
+  mark_near<FaceLanes>(in, words.faces, g.face_count, corner, [&](std::size_t f) {
+    return FaceLanes(places(x, corner[0], f), places(x, corner[1], f), places(x, corner[2], f));
   });
-  mark_near<FaceLanes>(in, words.faces, g.face_count, [&](std::size_t f) {
-    return FaceLanes(places(g.face_particle[0], f), places(g.face_particle[1], f), places(g.face_particle[2], f));
-  });
-  in.candidates->longest_edge = std::sqrt(largest(longest2));
 }
 
 /// Of the sets that are marked.
@@ -190,12 +193,13 @@ void CapsuleCandidates::run() const {
     CapsuleCandidateColumns& out = *candidates;
     const std::uint32_t count = garment->particle_count;
     const float margin = contact_margin_in_kernel(position, previous, count);
-    const bool stale = first || !same_capsules(*this) || is_stale(*this, margin);
+    const bool stale =
+        out.garment != garment || out.thickness != thickness || !same_capsules(*this) || is_stale(*this, margin);
     if (!stale) return;
 
     for (std::uint32_t i = 0; i < count; i += kLanes) store(load(position, i), out.anchor.view(), i);
     std::copy_n(capsules, capsule_count, out.sought.begin());
-    out.sought_count = capsule_count;
+    out.garment = garment, out.sought_count = capsule_count, out.thickness = thickness;
     out.margin = margin + kSkin + kLaneRounding;
     pack(position, nullptr, count, packed);
     mark_all(*this);

@@ -34,9 +34,9 @@ PLEAT_KERNEL Vec3Lanes away_from(const Core& core, const Vec3Lanes& position) {
   return p - core.axis * clamped(dot(p, core.axis) * core.inverse);
 }
 
-PLEAT_KERNEL LaneMask is_near(const Core& core, const Vec3Lanes& position) {
+PLEAT_KERNEL Lanes distance2_from(const Core& core, const Vec3Lanes& position) {
   const Vec3Lanes away = away_from(core, position);
-  return dot(away, away) < core.reach2;
+  return dot(away, away);
 }
 
 struct EdgeLanes {
@@ -65,8 +65,8 @@ struct EdgeDistance {
   }
 };
 
-PLEAT_KERNEL LaneMask is_near(const Core& core, const EdgeLanes& edge) {
-  return EdgeDistance(core, edge).distance2 < core.reach2;
+PLEAT_KERNEL Lanes distance2_from(const Core& core, const EdgeLanes& edge) {
+  return EdgeDistance(core, edge).distance2;
 }
 
 /// Whose surfaces may be nearer to the core than `room`, m.
@@ -108,13 +108,13 @@ struct FaceDistance {
   }
 };
 
-/// Whether an end of the core may be near.
-PLEAT_KERNEL LaneMask is_near(const Core& core, const FaceLanes& face) {
+/// From the nearer end of the core, no more than it is; where all are out of reach, only that they are.
+PLEAT_KERNEL Lanes distance2_from(const Core& core, const FaceLanes& face) {
   const Vec3Lanes from_a = face.middle - core.a, from_b = face.middle - core.b;
   const Lanes reach = face.radius + core.reach;
-  if (!any(min(dot(from_a, from_a), dot(from_b, from_b)) < reach * reach)) return LaneMask{};
+  if (!any(min(dot(from_a, from_a), dot(from_b, from_b)) < reach * reach)) return all(core.reach2);
   const FaceDistance a(face, core.a), b(face, core.b);
-  return (a.height2 + a.beside2 < core.reach2) | (b.height2 + b.beside2 < core.reach2);
+  return min(a.height2 + a.beside2, b.height2 + b.beside2);
 }
 
 /// Faces by their areas, for where points are straight over their inside.

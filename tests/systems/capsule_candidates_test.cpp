@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "components/shapes.h"
@@ -59,7 +60,6 @@ struct Walk {
             capsules.data(),
             static_cast<std::uint32_t>(capsules.size()),
             kThickness,
-            steps == 1,
             &cloth.candidates,
             cloth.scratch.data()};
   }
@@ -225,6 +225,40 @@ TEST(CapsuleCandidates, OtherCapsulesAreLookedForAtOnce) {
   walk.capsules[2].index = 7;
   walk.candidates().run();
   EXPECT_TRUE(walk.was_just_made());
+}
+
+TEST(CapsuleCandidates, WhatWasFoundForOtherSizesOrGarmentsIsNotReliedOn) {
+  Walk walk;
+  walk.step();
+  walk.candidates().run();
+  const auto looks_anew = [&] {
+    walk.cloth.put(0, walk.cloth.x(0) + Vec3{1e-4f, 0, 0}, walk.cloth.x(0));
+    walk.candidates().run();
+    return walk.was_just_made();
+  };
+  EXPECT_FALSE(looks_anew());
+  walk.capsules[0].radius += 0.01f;
+  EXPECT_TRUE(looks_anew());
+  walk.capsules[1].taper = 0.01f;
+  EXPECT_TRUE(looks_anew());
+  EXPECT_FALSE(looks_anew());
+  walk.cloth.candidates.thickness = 0.5f * kThickness;
+  EXPECT_TRUE(looks_anew());
+  walk.cloth.candidates.make_room(walk.cloth.garment, 3);
+  EXPECT_TRUE(looks_anew());
+}
+
+TEST(CapsuleCandidates, WhatWasFoundWithAParticleThatWasNotFiniteIsNotReliedOn) {
+  Walk walk;
+  walk.step();
+  const Vec3 x = walk.cloth.x(5);
+  walk.cloth.put(5, {std::numeric_limits<float>::quiet_NaN(), x.y, x.z}, x);
+  walk.candidates().run();
+  walk.cloth.put(5, x, x);
+  walk.cloth.put(0, walk.cloth.x(0) + Vec3{1e-4f, 0, 0}, walk.cloth.x(0));
+  walk.candidates().run();
+  EXPECT_TRUE(walk.was_just_made());
+  EXPECT_TRUE(walk.same_as_without());
 }
 
 TEST(CapsuleCandidates, ValidateRefusesBrokenFields) {
