@@ -24,12 +24,6 @@ inline std::array<T, 3> corner_weights(const std::array<T, 3>& side, float mean_
 /// What stands in for a normal that the faces around a point do not give: any fixed unit vector.
 inline constexpr Vec3 kAnyNormal{0.0f, 1.0f, 0.0f};
 
-inline void clear(Vec3View v, std::size_t count) {
-  std::fill(v.x, v.x + count, 0.0f);
-  std::fill(v.y, v.y + count, 0.0f);
-  std::fill(v.z, v.z + count, 0.0f);
-}
-
 /// Makes sums of face normals unit, or kAnyNormal where they have no direction.
 inline void normalize(Vec3View v, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; i += kLanes) {

@@ -119,6 +119,10 @@ struct Vec3View {
   operator ConstVec3View() const { return {x, y, z}; }
 };
 
+inline void clear(const Vec3View& v, std::size_t count) {
+  std::fill_n(v.x, count, 0.0f), std::fill_n(v.y, count, 0.0f), std::fill_n(v.z, count, 0.0f);
+}
+
 /// Vectors as three columns.
 struct Vec3Column {
   Column<float> x, y, z;

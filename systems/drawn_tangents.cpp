@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/base_normal.h"
-
 namespace pleat {
 namespace {
 
