@@ -39,8 +39,7 @@ struct WayBack {
   }
 };
 
-/// Whether a particle has moved, seen from a capsule, by more than the room it had. What is `taken` of that: how far
-/// the capsule's end b has moved against a, m.
+/// Whether a particle, carried back, is farther from where it was than its room less what is `taken` of that, m.
 template <class Carry>
 PLEAT_KERNEL bool is_out_of_room(const CapsuleCandidates& in, const float* room, float taken, const Carry& carry) {
   const ConstVec3View anchor = in.candidates->anchor.view();
@@ -52,11 +51,25 @@ PLEAT_KERNEL bool is_out_of_room(const CapsuleCandidates& in, const float* room,
   return out != 0.0f;
 }
 
+/// How far the particle has moved that has moved most, m; far where one is not finite.
+PLEAT_KERNEL float longest_motion(const CapsuleCandidates& in) {
+  constexpr float kFarAway2 = 1e30f;
+  const ConstVec3View anchor = in.candidates->anchor.view();
+  return std::sqrt(largest(in.garment->particle_count, [&](std::size_t i) {
+    const Vec3Lanes motion = load(in.position, i) - load(anchor, i);
+    const Lanes motion2 = dot(motion, motion);
+    return motion2 < kFarAway2 ? motion2 : all(kFarAway2);
+  }));
+}
+
 /// Whether a feature that is not listed may be near now.
 PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in, float margin) {
-  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;  // m
+  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;           // m
+  const float skin = in.candidates->margin - kLaneRounding - margin;  // the least that any particle has room for
+  const float moved = longest_motion(in);
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
+    if (moved + std::max(length(now.a - then.a), length(now.b - then.b)) <= skin) continue;
     const float* room = in.candidates->room_of(*in.garment, c);
     const Vec3 shift = then.a - now.a;
     const float turned = length(then.b - now.b - shift);
@@ -97,6 +110,7 @@ PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::
   const std::size_t words = FeatureWords(*in.garment).end;
   for (std::uint32_t begin = 0; begin < count; begin += kBits) {
     const std::uint32_t rest = std::min(count - begin, kBits);
+    const std::uint64_t used = ~std::uint64_t{0} >> (kBits - rest);
     Room<Features> features;
     for (std::uint32_t k = 0; k < rest; k += kLanes) {
       std::construct_at(features.places + k / kLanes, make(begin + k));
@@ -106,22 +120,23 @@ PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::
       const float surface = widest_radius(in.capsules[c]) + in.thickness, within = surface + in.candidates->margin;
       const Core core(in.capsules[c], std::max(within, surface + CapsuleCandidates::kFar));
       float* room = in.candidates->room_of(*in.garment, c);
-      std::uint64_t marks = 0;
+      float distance2[kBits];
+      std::uint64_t near = 0, far = 0;
       for (std::uint32_t k = 0; k < rest; k += kLanes) {
-        const Lanes distance2 = distance2_from(core, features.places[k / kLanes]);
-        const std::uint32_t used = (1u << std::min(rest - k, kLanes)) - 1;
-        const std::uint32_t near = bits(distance2 < within * within) & used;
-        marks |= std::uint64_t{near} << k;
-        for (std::uint32_t far = bits(distance2 < core.reach2) & used & ~near; far != 0; far &= far - 1) {
-          const auto lane = static_cast<std::uint32_t>(std::countr_zero(far));
-          const float away = std::sqrt(distance2[lane]) - surface;
-          for (const std::uint32_t* particle : corner) {
-            float& left = room[particle == nullptr ? begin + k + lane : particle[begin + k + lane]];
-            left = std::min(left, away);
-          }
+        const Lanes found2 = distance2_from(core, features.places[k / kLanes]);
+        store(found2, distance2 + k);
+        near |= std::uint64_t{bits(found2 < within * within)} << k;
+        far |= std::uint64_t{bits(found2 < core.reach2)} << k;
+      }
+      for (far &= used & ~near; far != 0; far &= far - 1) {
+        const auto k = static_cast<std::uint32_t>(std::countr_zero(far));
+        const float away = std::sqrt(distance2[k]) - surface;
+        for (const std::uint32_t* particle : corner) {
+          float& left = room[particle == nullptr ? begin + k : particle[begin + k]];
+          left = std::min(left, away);
         }
       }
-      *at = marks;
+      *at = near & used;
     }
   }
 }
@@ -134,7 +149,8 @@ PLEAT_KERNEL void mark_all(const CapsuleCandidates& in) {
   const Garment& g = *in.garment;
   const FeatureWords words(g);
   const Vec4* x = in.packed;
-  std::fill_n(in.candidates->room.data(), padded(g.particle_count) * in.capsule_count, CapsuleCandidates::kFar);
+  std::fill_n(in.candidates->room.data(), padded(g.particle_count) * in.capsule_count,
+              std::max(in.candidates->margin, CapsuleCandidates::kFar));
   mark_near<Vec3Lanes>(in, words.particles, g.particle_count, {nullptr},
                        [&](std::size_t i) { return load(in.position, i); });
   const std::uint32_t* const end[] = {g.edge_particle[0].data(), g.edge_particle[1].data()};

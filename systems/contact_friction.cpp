@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "components/wide.h"
+
 namespace pleat {
 
 bool ContactFriction::validate() const {
@@ -10,18 +12,20 @@ bool ContactFriction::validate() const {
 }
 
 void ContactFriction::run() const {
-  for (std::uint32_t c = 0; c < *contacts.count; ++c) {
-    ContactRow& row = contacts.rows[c];
-    const float most = row.friction * row.push - row.rubbed;
-    if (!(most > 0.0f)) continue;
-    const Vec3 moved = contact_point(row, position) - contact_point(row, previous) - row.body_step;
-    const Vec3 slid = moved - row.normal * dot(row.normal, moved);
-    const float distance = length(slid);
-    if (distance < 1e-12f || distance > longest) continue;
-    const float share = std::min(1.0f, most / distance);
-    shift_contact(row, slid * -share, position);
-    row.rubbed += share * distance;
-  }
+  run_wide(widest_vectors(), [&] {
+    for (std::uint32_t c = 0; c < *contacts.count; ++c) {
+      ContactRow& row = contacts.rows[c];
+      const float most = row.friction * row.push - row.rubbed;
+      if (!(most > 0.0f)) continue;
+      const Vec3 moved = contact_point(row, position) - contact_point(row, previous) - row.body_step;
+      const Vec3 slid = moved - row.normal * dot(row.normal, moved);
+      const float distance = length(slid);
+      if (distance < 1e-12f || distance > longest) continue;
+      const float share = std::min(1.0f, most / distance);
+      shift_contact(row, slid * -share, position);
+      row.rubbed += share * distance;
+    }
+  });
 }
 
 bool ContactVelocity::validate() const {
