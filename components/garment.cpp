@@ -71,24 +71,20 @@ std::uint32_t middle_of(std::span<const Vec3> positions) {
 
 /// Edges between two pins are left out: nothing moves their ends.
 void add_slots(const std::vector<EdgeEnds>& all, Garment& g) {
-  std::vector<std::uint32_t> movable;
   std::vector<EdgeEnds> edges;
+  std::vector<float> lengths;
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     if (g.pinned[all[e][0]] != 0 && g.pinned[all[e][1]] != 0) continue;
-    movable.push_back(e);
     edges.push_back(all[e]);
+    lengths.push_back(g.edge_rest_length[e]);
   }
-  const std::vector<std::uint32_t> slots = slots_of(g.particle_count, edges, kLanes);
-  g.slot_count = static_cast<std::uint32_t>(slots.size());
-  g.slotted_edge_count = static_cast<std::uint32_t>(edges.size());
-  for (auto& column : g.slot_particle) column.resize(g.slot_count);
-  g.slot_rest_length.resize(g.slot_count);
-  for (std::size_t s = 0; s < slots.size(); ++s) {
-    const bool empty = slots[s] == kEmptySlot;
-    g.slot_particle[0][s] = empty ? g.empty_place() : edges[slots[s]][0];
-    g.slot_particle[1][s] = empty ? g.empty_place() + 1 : edges[slots[s]][1];
-    g.slot_rest_length[s] = empty ? 1.0f : g.edge_rest_length[movable[slots[s]]];
-  }
+  fill_slots(g.particle_count, edges, lengths, g.slots);
+}
+
+/// Where edges begin to be solved: the pins or, without any, the particle nearest to the middle of all.
+std::vector<std::uint32_t> roots_of(const GarmentInput& input) {
+  if (input.pins.empty()) return {middle_of(input.positions)};
+  return {input.pins.begin(), input.pins.end()};
 }
 
 void add_edges(const GarmentInput& input, Garment& g) {
@@ -102,8 +98,7 @@ void add_edges(const GarmentInput& input, Garment& g) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const std::uint32_t middle[] = {middle_of(input.positions)};
-  order_edges(g.particle_count, input.pins.empty() ? middle : input.pins, edges);
+  order_edges(g.particle_count, roots_of(input), edges);
 
   g.edge_count = static_cast<std::uint32_t>(edges.size());
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
@@ -177,8 +172,8 @@ Garment::Garment(std::pmr::memory_resource* m)
       edge_face{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_rest_length(m),
       edge_rest_curve_length(m),
-      slot_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
-      slot_rest_length(m),
+      slots(m),
+      coarse(m),
       tether_particle(m),
       tether_pin(m),
       tether_length(m),
@@ -206,6 +201,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   add_hinges(garment);
   measure_hinges(garment);
   measure_tethers(garment);
+  add_coarse_levels(roots_of(input), garment);
   find_creases(input.seams, input.crease_angle, garment);
   measure_rest_curves(garment);
   return garment;

@@ -6,8 +6,11 @@
 #include <memory_resource>
 #include <numbers>
 #include <span>
+#include <vector>
 
+#include "components/coarse_levels.h"
 #include "components/column.h"
+#include "components/edge_slots.h"
 #include "components/mesh.h"
 
 namespace pleat {
@@ -40,18 +43,15 @@ struct Garment {
   Column<float> edge_rest_length;        // m
   Column<float> edge_rest_curve_length;  // m, of the PN curve over the edge at rest: what edge length control aims at
 
-  // Those of the edges that have an end to move, in slots (S): runs of kLanes that share no particle and are solved at
-  // once; edges that meet are in order. Empty slots are edges of 1 m between two places behind the particles of
-  // Vec4Columns, whose inverse mass is 0, so that lanes need no mask.
-  std::uint32_t slot_count = 0, slotted_edge_count = 0;
-  Column<std::uint32_t> slot_particle[2];
-  Column<float> slot_rest_length;  // m
-  std::uint32_t empty_place() const { return static_cast<std::uint32_t>(padded(particle_count)); }
+  EdgeSlots slots;                       // those of the edges that have an end to move
+  std::pmr::vector<CoarseLevel> coarse;  // the coarsest first; coarse_levels.h
+  std::uint32_t way_count = 0;           // slots of edges and, after them, of levels: edge_ways.h
 
   /// Edges from the farthest particle to a pin; without pins, about half of the way across its first part.
   std::uint32_t depth = 0;
-  // Tethers (T): ways over the surface from particles to their nearest two pins, nearest first; see tethers.h. None
-  // where the garment is less than kSweepReach deep.
+  // Tethers (T): ways over the surface from particles to their nearest two pins; see tethers.h. First the nearest pins,
+  // then the others, each padded to runs of kLanes that share no particle with tethers of slots.empty_place. None where
+  // the garment is less than kSweepReach deep.
   Column<std::uint32_t> tether_particle, tether_pin;
   Column<float> tether_length;  // m
 

@@ -1,8 +1,10 @@
 #include "components/tethers.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "components/geodesics.h"
+#include "components/lanes.h"
 #include "components/neighbours.h"
 
 namespace pleat {
@@ -28,12 +30,23 @@ Farthest farthest_from(std::vector<std::uint32_t> start, const IndexLists& edges
   return {queue.back(), depth[queue.back()]};
 }
 
+/// Every particle's nearest pin, then every one's next: a run of lanes has no particle twice.
 void add_tethers(Garment& g) {
-  const std::vector<Way> ways = ways_to_pins(g);
-  for (Column<std::uint32_t>* column : {&g.tether_particle, &g.tether_pin}) column->resize(ways.size());
-  g.tether_length.resize(ways.size());
-  for (std::size_t t = 0; t < ways.size(); ++t) {
-    g.tether_particle[t] = ways[t].particle, g.tether_pin[t] = ways[t].pin, g.tether_length[t] = ways[t].length;
+  std::vector<Way> ways = ways_to_pins(g);  // shortest first
+  std::ranges::stable_sort(ways, {}, &Way::particle);
+  const std::uint32_t nowhere = g.slots.empty_place;
+  for (std::size_t nth = 0; nth < kPinsPerParticle; ++nth) {
+    std::size_t before = 0;  // ways of the same particle
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      before = k > 0 && ways[k - 1].particle == ways[k].particle ? before + 1 : 0;
+      if (before != nth) continue;
+      g.tether_particle.push_back(ways[k].particle);
+      g.tether_pin.push_back(ways[k].pin);
+      g.tether_length.push_back(ways[k].length);
+    }
+    while (g.tether_length.size() % kLanes != 0) {
+      g.tether_particle.push_back(nowhere), g.tether_pin.push_back(nowhere), g.tether_length.push_back(1.0f);
+    }
   }
 }
 

@@ -25,9 +25,10 @@ namespace pleat {
 namespace {
 
 constexpr std::uint32_t kMostSubsteps = 64;
-constexpr std::uint32_t kStiffSubsteps = 4;  // times as many as without stiff springs, at most
-constexpr float kLooseStart = 0.005f;        // elongation beyond the strain limit that a start may have
-constexpr int kRetries = 2;                  // of a tick that went wrong, each with twice the substeps, 128 at most
+constexpr std::uint32_t kStiffSubsteps = 4;   // times as many as without stiff springs, at most
+constexpr std::uint32_t kMostForceSteps = 4;  // of a substep, where nothing but bending is stiff
+constexpr float kLooseStart = 0.005f;         // elongation beyond the strain limit that a start may have
+constexpr int kRetries = 2;                   // of a tick that went wrong, each with twice the substeps, 128 at most
 
 void stop(ClothTick& t) {
   for (std::size_t i = 0; i < t.garment.particle_count; ++i) t.velocity.set(i, {});
@@ -52,10 +53,12 @@ void settle([[maybe_unused]] ClothTick& t) {
   if (t.loose || t.deep) stop(t);
 }
 
-/// Passes of strain limit and contact in each substep. What carries a pull through deep cloth is all passes of a tick:
-/// where there are more substeps than the cloth's motion wants, because it is stiff, each needs fewer.
+/// Passes of strain limit and contact in each substep: as many more for each doubling of the depth, while coarse levels
+/// carry pulls. What carries them is all passes of a tick: where there are more substeps than the cloth's motion wants,
+/// because it is stiff, each needs fewer.
 std::uint32_t sweeps_for(const ClothTick& t) {
-  const std::uint32_t deep = t.settings.sweeps * (1 + t.garment.depth / kSweepReach);
+  const std::uint32_t deep =
+      t.settings.sweeps * (1 + static_cast<std::uint32_t>(std::bit_width(t.garment.depth / kSweepReach)));
   const std::uint32_t wanted = std::min(t.cloth.substeps_wanted, t.substeps);
   return std::max(t.settings.sweeps, (deep * wanted + t.substeps - 1) / t.substeps);
 }
@@ -65,11 +68,13 @@ void run_substep(ClothTick& t) {
   run_phase(t, Phase::kSubstepBegin);
   copy(t.previous, t.position, n);
   const int stages = t.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? 4 : 1;
-  for (t.stage = 0; t.stage < stages; ++t.stage) {
-    std::fill_n(t.force.x, n, 0.0f);
-    std::fill_n(t.force.y, n, 0.0f);
-    std::fill_n(t.force.z, n, 0.0f);
-    run_phase(t, Phase::kStage);
+  for (std::uint32_t step = 0; step < t.force_steps; ++step) {
+    for (t.stage = 0; t.stage < stages; ++t.stage) {
+      std::fill_n(t.force.x, n, 0.0f);
+      std::fill_n(t.force.y, n, 0.0f);
+      std::fill_n(t.force.z, n, 0.0f);
+      run_phase(t, Phase::kStage);
+    }
   }
   copy(t.predicted, t.position, n);
   t.worker.contact_count = t.cloth_rows = 0;
@@ -122,10 +127,14 @@ void note(Notice& notice) {
   if (notice == Notice::kNothing) notice = Notice::kDue;
 }
 
+std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
+
 std::uint32_t substeps_for(ClothTick& t, float dt) {
   const std::uint32_t least = substeps_against_tunnelling(t, dt);
   const StableStep stable = stable_step(t);
   assert(stable.validate());
+  const bool projected = t.settings.integrator == PLEAT_INTEGRATOR_PROJECTED;
+  const std::uint32_t pieces = projected ? kMostForceSteps : 1;  // that a substep may be cut into
   std::uint32_t n = t.cloth.substeps_wanted = t.settings.substeps;
   if (n == 0) {
     const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
@@ -137,10 +146,12 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
     const std::uint32_t most = std::min(kStiffSubsteps * std::max(n, least), kMostSubsteps);
     n = static_cast<std::uint32_t>(std::ceil(static_cast<float>(n) * t.cloth.substep_share));
     n = std::clamp(least, n, kMostSubsteps);
-    n = std::min(stable.run(dt, n, most), most);
+    n = std::max(n, std::min(quotient_up(stable.run(dt, n, pieces * most), pieces), most));
   }
   if (n < least) ++t.worker.stats.fast_bodies;
-  if (stable.run(dt, n, n) > n) {
+  const std::uint32_t force_steps = stable.run(dt, n, pieces * n);
+  t.force_steps = std::min(quotient_up(force_steps, n), pieces);
+  if (force_steps > pieces * n) {
     ++t.worker.stats.stiffness_lowered;
     t.cloth.lowered_at = n;
     note(t.cloth.lowered);
@@ -152,6 +163,7 @@ void run_substeps(ClothTick& t, std::uint32_t n) {
   const float dt = t.frame_dt;
   t.substeps = n;
   t.dt = dt / static_cast<float>(n);
+  t.force_dt = t.dt / static_cast<float>(t.force_steps);
   const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
   t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable_step(t).room(t.dt);
   t.trouble = false;

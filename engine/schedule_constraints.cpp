@@ -2,6 +2,7 @@
 #include "components/tethers.h"
 #include "engine/schedule_row.h"
 #include "engine/sleep.h"
+#include "systems/coarse_stretch.h"
 #include "systems/edge_ways.h"
 #include "systems/elastic_projection.h"
 #include "systems/energy_check.h"
@@ -31,18 +32,18 @@ namespace {
 
 constexpr float kOverRelaxation = 1.6f;  // with 1.8 drapes at rest tremble more
 constexpr std::uint32_t kExactSweeps = 3;
-constexpr std::uint32_t kDeep = 2 * kSweepReach;  // edges; a sheet of half of that trembles between limbs that cross
+constexpr std::uint32_t kDeepElasticPasses = 3;
 #ifdef PLEAT_WITH_COLLISION
 constexpr float kCreepSpeed = 0.02f;  // m/s, of cloth that friction holds while the strain limit pulls at it
 #endif
 
 /// In deep cloth all passes but a substep's last ones pull too far, so that fewer are needed; those put that right.
 float relaxation_of(const ClothTick& t) {
-  return t.garment.depth >= kDeep && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
+  return t.garment.depth >= kCoarseDepth && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
 }
 
 void limit_stretch(ClothTick& t) {
-  run(StretchConstraint{.garment = &t.garment,
+  run(StretchConstraint{.slots = &t.garment.slots,
                         .limit = t.settings.stretch_limit,
                         .relaxation = relaxation_of(t),
                         .way = t.worker.edge_way.view(),
@@ -113,7 +114,8 @@ constexpr Row kRows[] = {
                              .dt = t.dt,
                              .way = t.worker.edge_way.view(),
                              .position = t.position,
-                             .packed = &t.worker.packed});
+                             .packed = &t.worker.packed,
+                             .passes = t.garment.depth < kSweepReach ? 1 : kDeepElasticPasses});
      }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.
@@ -260,6 +262,20 @@ constexpr Row kRows[] = {
      }},
 #endif
 
+    {Phase::kSweep, "coarse_stretch",
+     [](const World& w, const ClothRecord& c) {
+       return c.garment().coarse.empty() ? "no particle is far from a pin" : with_stretch_limit(w, c);
+     },
+     [](ClothTick& t) {
+       if (t.sweeps_left <= kExactSweeps) return;
+       run(CoarseStretch{.garment = &t.garment,
+                         .limit = t.settings.stretch_limit,
+                         .relaxation = relaxation_of(t),
+                         .way = t.worker.edge_way.view(),
+                         .position = &t.worker.packed.position,
+                         .begin = &t.worker.packed.begin},
+           t.worker.stats);
+     }},
     {Phase::kSweep, "stretch_constraint", with_stretch_limit, limit_stretch},
     {Phase::kSweep, "tether_constraint",
      [](const World&, const ClothRecord& c) {

@@ -76,7 +76,7 @@ constexpr Row kRows[] = {
                         .inverse_mass = t.inverse_mass,
                         .stiffness = t.settings.bend_stiffness,
                         .damping_rate = t.settings.bend_damping,
-                        .dt = t.dt,
+                        .dt = t.force_dt,
                         .packed = &t.worker.packed,
                         .scratch = &t.worker.hinge_scratch,
                         .force = t.force,
@@ -94,7 +94,7 @@ constexpr Row kRows[] = {
                        .velocity = t.velocity,
                        .inverse_mass = t.inverse_mass,
                        .rate = t.settings.edge_damping,
-                       .dt = t.dt,
+                       .dt = t.force_dt,
                        .packed = &t.worker.packed,
                        .force = t.force});
      }},
@@ -117,7 +117,7 @@ constexpr Row kRows[] = {
                       .mass = t.mass,
                       .velocity = t.velocity,
                       .rate = t.settings.air_damping,
-                      .dt = t.dt,
+                      .dt = t.force_dt,
                       .force = t.force});
      }},
     {Phase::kStage, "inner_friction",
@@ -129,8 +129,8 @@ constexpr Row kRows[] = {
                          .mass = t.mass,
                          .velocity = t.velocity,
                          .deceleration = t.settings.inner_friction,
-                         .dt = t.dt,
-                         .elapsed = runge_kutta(t.settings) ? 0.25f * t.dt : t.dt,
+                         .dt = t.force_dt,
+                         .elapsed = runge_kutta(t.settings) ? 0.25f * t.force_dt : t.force_dt,
                          .held = t.world.held.view().from(t.cloth.particle_begin),
                          .force = t.force});
      }},
@@ -158,7 +158,7 @@ constexpr Row kRows[] = {
                    .drag_coefficient = t.settings.drag_coefficient,
                    .lift_coefficient = t.settings.lift_coefficient,
                    .density = t.settings.density,
-                   .dt = t.dt,
+                   .dt = t.force_dt,
                    .force = t.force});
      }},
 #ifdef PLEAT_WITH_COLLISION
@@ -168,7 +168,7 @@ constexpr Row kRows[] = {
                                .position = t.position,
                                .velocity = t.velocity,
                                .inverse_mass = t.inverse_mass,
-                               .dt = t.dt,
+                               .dt = t.force_dt,
                                .force = t.force});
      }},
 #endif
@@ -180,7 +180,7 @@ constexpr Row kRows[] = {
        run(EulerIntegration{.particle_count = t.garment.particle_count,
                             .inverse_mass = t.inverse_mass,
                             .force = t.force,
-                            .dt = t.dt,
+                            .dt = t.force_dt,
                             .symplectic = t.settings.integrator != PLEAT_INTEGRATOR_EXPLICIT_EULER,
                             .position = t.position,
                             .velocity = t.velocity});
@@ -193,7 +193,7 @@ constexpr Row kRows[] = {
                                  .inverse_mass = t.inverse_mass,
                                  .force = t.force,
                                  .start_position = t.previous,
-                                 .dt = t.dt,
+                                 .dt = t.force_dt,
                                  .stage = t.stage,
                                  .position = t.position,
                                  .velocity = t.velocity,
@@ -209,7 +209,7 @@ constexpr Row kRows[] = {
                                .inverse_mass = t.inverse_mass,
                                .force = t.force,
                                .law = t.edge_law(),
-                               .dt = t.dt,
+                               .dt = t.force_dt,
                                .position = t.position,
                                .velocity = t.velocity});
      }},

@@ -2,14 +2,14 @@
 // beside each other share no particle and are solved at once, with the bits that one after the other would give.
 #pragma once
 
-#include "components/garment.h"
+#include "components/edge_slots.h"
 #include "components/lanes.h"
 #include "components/vec4.h"
 #include "components/wide.h"
 
 namespace pleat {
 
-/// What a pass goes through. In slots; see garment.h, edge_ways.h.
+/// What a pass goes through. In slots; see edge_slots.h, edge_ways.h.
 struct EdgeColumns {
   const std::uint32_t* particle[2];
   const float* rest_length;  // m
@@ -18,7 +18,7 @@ struct EdgeColumns {
 };
 
 /// An edge.
-struct EdgeSlot {
+struct OneEdge {
   struct End {
     Vec3 vector;
     float w;
@@ -38,7 +38,7 @@ struct EdgeSlot {
 };
 
 /// Edges side by side.
-struct EdgeSlots {
+struct EightEdges {
   const EdgeColumns& in;
   std::uint32_t slot;
 
@@ -50,24 +50,22 @@ struct EdgeSlots {
   }
 };
 
-/// solve(EdgeSlot) or solve(EdgeSlots), in order. Without AVX2, where lanes are split, edge by edge is quicker; so it
+/// solve(OneEdge) or solve(EightEdges), in order. Without AVX2, where lanes are split, edge by edge is quicker; so it
 /// is where most slots are empty, as in small cloths that hang from few pins.
 template <class Solve>
-PLEAT_KERNEL void for_each_edge(const Garment& garment, ConstVec3View way, Column<Vec4>& packed, VectorSet set,
+PLEAT_KERNEL void for_each_edge(const EdgeSlots& slots, ConstVec3View way, Column<Vec4>& packed, VectorSet set,
                                 const Solve& solve) {
   constexpr std::uint32_t kMostSlotsPerEdge = 2;
-  const std::uint32_t empty = garment.empty_place(), count = garment.slot_count;
+  const std::uint32_t empty = slots.empty_place;
   packed[empty] = {0.0f, 0.0f, 0.0f, 0.0f}, packed[empty + 1] = {1.0f, 0.0f, 0.0f, 0.0f};
-  const EdgeColumns in{{garment.slot_particle[0].data(), garment.slot_particle[1].data()},
-                       garment.slot_rest_length.data(),
-                       way,
-                       packed.data()};
-  if (set == VectorSet::kBaseline || count > kMostSlotsPerEdge * garment.slotted_edge_count) {
-    for (std::uint32_t s = 0; s < count; ++s) {
-      if (in.particle[0][s] != empty) solve(EdgeSlot{in, s});
+  const EdgeColumns in{
+      {slots.particle[0].data(), slots.particle[1].data()}, slots.rest_length.data(), way, packed.data()};
+  if (set == VectorSet::kBaseline || slots.count > kMostSlotsPerEdge * slots.edge_count) {
+    for (std::uint32_t s = 0; s < slots.count; ++s) {
+      if (in.particle[0][s] != empty) solve(OneEdge{in, s});
     }
   } else {
-    for (std::uint32_t s = 0; s < count; s += kLanes) solve(EdgeSlots{in, s});
+    for (std::uint32_t s = 0; s < slots.count; s += kLanes) solve(EightEdges{in, s});
   }
 }
 

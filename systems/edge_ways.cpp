@@ -3,6 +3,17 @@
 #include "components/lanes.h"
 
 namespace pleat {
+namespace {
+
+PLEAT_KERNEL void find_ways(const Vec4* place, const EdgeSlots& slots, const Vec3View& way) {
+  for (std::uint32_t s = 0; s < slots.count; s += kLanes) {
+    const Vec4Lanes from = gather(place, slots.particle[0].data() + s);
+    const Vec4Lanes to = gather(place, slots.particle[1].data() + s);
+    store(to.vector - from.vector, way, s);
+  }
+}
+
+}  // namespace
 
 bool EdgeWays::validate() const {
   return garment != nullptr && previous.x != nullptr && packed != nullptr && packed->holds(garment->particle_count) &&
@@ -13,12 +24,10 @@ void EdgeWays::run(VectorSet set) const {
   run_wide(set, [this] {
     Vec4* place = packed->position.data();
     pack(previous, nullptr, garment->particle_count, place);
-    place[garment->empty_place()] = place[garment->empty_place() + 1] = {};
-    for (std::uint32_t s = 0; s < garment->slot_count; s += kLanes) {
-      const Vec4Lanes from = gather(place, garment->slot_particle[0].data() + s);
-      const Vec4Lanes to = gather(place, garment->slot_particle[1].data() + s);
-      store(to.vector - from.vector, way, s);
-    }
+    const std::uint32_t empty = garment->slots.empty_place;
+    place[empty] = place[empty + 1] = {};
+    find_ways(place, garment->slots, way);
+    for (const CoarseLevel& level : garment->coarse) find_ways(place, level.slots, way.from(level.way_begin));
   });
 }
 

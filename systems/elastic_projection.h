@@ -10,15 +10,16 @@
 
 namespace pleat {
 
-/// One pass over the edges, in order, in place of ElasticForce and EdgeDamping: moves the ends of each to where the
+/// Passes over the edges, in order, in place of ElasticForce and EdgeDamping: moves the ends of each to where the
 /// forces of both at the end of the step would bring them, were they alone in the world,
 ///   x_i += w_i dt^2 F / (1 + (w_i + w_j) (dt^2 k/L + c dt/l0) q.d/l),   x_j likewise with -F
 ///   F = (k (l - L)/L + c (l - l0)/(l0 dt)) q,   c = rate / (w_i + w_j)
 /// where d = x_j - x_i, q is the same where the step began, and l0 its length (pull_direction.h).
 /// For soft edges that is their force, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
-/// that would end past its buckling is solved on that line of its law.
+/// that would end past its buckling is solved on that line of its law. More passes give edges back more of
+/// the length that the strain limit, which only pulls, takes from them in its many passes over deep cloth.
 /// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
-/// Writes: position (P) m; packed, scratch.  Cost: O(P + S), no allocation.  Errors: none.
+/// Writes: position (P) m; packed, scratch.  Cost: O(P + S passes), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
   const float* inverse_mass = nullptr;
@@ -28,6 +29,7 @@ struct ElasticProjection {
   ConstVec3View way;
   Vec3View position;
   Vec4Columns* packed = nullptr;  // holds (P)
+  std::uint32_t passes = 1;
 
   bool validate() const;
   void run(VectorSet set = widest_vectors()) const;

@@ -3,7 +3,7 @@
 //   M. Oshita, A. Makinouchi, 2001, section 4.3.
 #pragma once
 
-#include "components/garment.h"
+#include "components/edge_slots.h"
 #include "components/stats.h"
 #include "components/vec4.h"
 #include "components/wide.h"
@@ -16,15 +16,15 @@ namespace pleat {
 /// r above 1 pulls too far, as successive over-relaxation does: a pull through many edges then takes fewer passes.
 /// Short edges are left alone: edge length control gives them their length back when they are drawn. Moves are weighted
 /// by inverse mass, so momentum is kept except at pins.
-/// Reads:  garment slots; way (S) m: edge_ways.h; inverse mass with the positions
+/// Reads:  slots; way (S) m: edge_ways.h; inverse mass with the positions
 /// Writes: position (P) m, packed; stats.edges_skipped
 /// Cost:   O(S), no allocation. Errors: none; an edge shorter than 1e-9 m is skipped and counted.
 struct StretchConstraint {
-  const Garment* garment = nullptr;
-  float limit = 0.0f;       // fraction of the rest length
-  float relaxation = 1.0f;  // r, below 2
+  const EdgeSlots* slots = nullptr;  // a garment's, or of a coarse level
+  float limit = 0.0f;                // fraction of the rest length
+  float relaxation = 1.0f;           // r, below 2
   ConstVec3View way;
-  Column<Vec4>* position = nullptr;  // and two places more: garment.h
+  Column<Vec4>* position = nullptr;  // and two places more: edge_slots.h
 
   bool validate() const;
   void run(Stats& stats, VectorSet set = widest_vectors()) const;

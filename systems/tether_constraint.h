@@ -5,6 +5,7 @@
 
 #include "components/garment.h"
 #include "components/vec4.h"
+#include "components/wide.h"
 
 namespace pleat {
 
@@ -17,11 +18,11 @@ namespace pleat {
 /// Cost:   O(T), no allocation. Errors: none.
 struct TetherConstraint {
   const Garment* garment = nullptr;
-  float limit = 0.0f;  // fraction of the way
-  Vec4* position = nullptr;
+  float limit = 0.0f;        // fraction of the way
+  Vec4* position = nullptr;  // and a place more: edge_slots.h
 
   bool validate() const;
-  void run() const;
+  void run(VectorSet set = widest_vectors()) const;
 };
 
 }  // namespace pleat

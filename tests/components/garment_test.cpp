@@ -72,17 +72,17 @@ TEST(Garment, EveryEdgeHasASlotButThoseBetweenPins) {
   const std::uint32_t pins[] = {0, 1, 2, 3, 4, 5, 6, 7};  // the waist
   const Garment g = build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource());
   std::set<std::array<std::uint32_t, 2>> slotted;
-  for (std::uint32_t s = 0; s < g.slot_count; ++s) {
-    const std::uint32_t i = g.slot_particle[0][s], j = g.slot_particle[1][s];
-    if (i == g.empty_place()) continue;
+  for (std::uint32_t s = 0; s < g.slots.count; ++s) {
+    const std::uint32_t i = g.slots.particle[0][s], j = g.slots.particle[1][s];
+    if (i == g.slots.empty_place) continue;
     EXPECT_TRUE(slotted.insert({i, j}).second);
-    EXPECT_FLOAT_EQ(g.slot_rest_length[s], length(mesh.positions[j] - mesh.positions[i]));
+    EXPECT_FLOAT_EQ(g.slots.rest_length[s], length(mesh.positions[j] - mesh.positions[i]));
   }
   for (std::uint32_t e = 0; e < g.edge_count; ++e) {
     const std::array<std::uint32_t, 2> edge{g.edge_particle[0][e], g.edge_particle[1][e]};
     EXPECT_EQ(slotted.contains(edge), edge[1] > 7) << e;
   }
-  EXPECT_EQ(g.slotted_edge_count, 166u);
+  EXPECT_EQ(g.slots.edge_count, 166u);
   EXPECT_EQ(slotted.size(), 166u);
 }
 

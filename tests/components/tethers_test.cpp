@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "components/garment.h"
+#include "components/lanes.h"
 #include "tests/components/skirt.h"
 
 namespace pleat {
@@ -17,6 +19,15 @@ Garment garment_of(const Mesh& mesh, std::span<const std::uint32_t> pins = {}) {
 }
 Garment square(std::uint32_t side, std::span<const std::uint32_t> pins) {
   return garment_of(make_grid({.rows = side, .columns = side}), pins);
+}
+
+/// But for the empty ones that fill runs of lanes.
+std::vector<std::size_t> tethers_of(const Garment& g) {
+  std::vector<std::size_t> found;
+  for (std::size_t t = 0; t < g.tether_length.size(); ++t) {
+    if (g.tether_particle[t] != g.slots.empty_place) found.push_back(t);
+  }
+  return found;
 }
 
 /// All ways along the edges, one by one (Floyd, Warshall).
@@ -55,7 +66,7 @@ TEST(Tethers, LeadToTheNearestTwoPinsNearestFirst) {
   const std::uint32_t corners[] = {0, 11, 143};
   const Garment g = square(12, corners);
   std::vector<std::vector<float>> found(g.particle_count);
-  for (std::size_t t = 0; t < g.tether_length.size(); ++t) found[g.tether_particle[t]].push_back(g.tether_length[t]);
+  for (const std::size_t t : tethers_of(g)) found[g.tether_particle[t]].push_back(g.tether_length[t]);
   const ConstVec3View x = g.rest_position.view();
   for (std::uint32_t i = 0; i < g.particle_count; ++i) {
     if (g.pinned[i]) {
@@ -68,6 +79,19 @@ TEST(Tethers, LeadToTheNearestTwoPinsNearestFirst) {
     ASSERT_EQ(found[i].size(), 2u);
     EXPECT_NEAR(found[i][0], ways[0], 1e-5f);
     EXPECT_NEAR(found[i][1], ways[1], 1e-3f);  // through particles that may know nearer pins only
+  }
+}
+
+TEST(Tethers, ARunOfLanesHasNoParticleTwice) {
+  const std::uint32_t corners[] = {0, 11, 143};
+  const Garment g = square(12, corners);
+  ASSERT_EQ(g.tether_length.size() % kLanes, 0u);
+  for (std::size_t run = 0; run < g.tether_length.size(); run += kLanes) {
+    std::set<std::uint32_t> seen;
+    for (std::size_t t = run; t < run + kLanes; ++t) {
+      if (g.tether_particle[t] == g.slots.empty_place) continue;
+      EXPECT_TRUE(seen.insert(g.tether_particle[t]).second) << t;
+    }
   }
 }
 
@@ -84,8 +108,8 @@ TEST(Tethers, AreStraightOnAFlatSheetHoweverItIsCut) {
     }
     const Garment g = garment_of(sheet, pins);
     const ConstVec3View x = g.rest_position.view();
-    ASSERT_EQ(g.tether_length.size(), 2u * (g.particle_count - 2));
-    for (std::size_t t = 0; t < g.tether_length.size(); ++t) {
+    ASSERT_EQ(tethers_of(g).size(), 2u * (g.particle_count - 2));
+    for (const std::size_t t : tethers_of(g)) {
       const float straight = length(x[g.tether_particle[t]] - x[g.tether_pin[t]]);
       EXPECT_GE(g.tether_length[t], straight - 1e-5f);
       EXPECT_LE(g.tether_length[t], 1.006f * straight);
@@ -100,8 +124,8 @@ TEST(Tethers, GoAroundATubeTheShorterWay) {
   const std::uint32_t pins[] = {0};
   const Garment g = garment_of(make_rings(rings), pins);
   const float side = length(g.rest_position.view()[1] - g.rest_position.view()[0]);
-  ASSERT_EQ(g.tether_length.size(), g.particle_count - 1u);
-  for (std::size_t t = 0; t < g.tether_length.size(); ++t) {
+  ASSERT_EQ(tethers_of(g).size(), g.particle_count - 1u);
+  for (const std::size_t t : tethers_of(g)) {
     const std::uint32_t i = g.tether_particle[t] % kAround, ring = g.tether_particle[t] / kAround;
     const float across = side * static_cast<float>(std::min(i, kAround - i)), down = 0.1f * static_cast<float>(ring);
     EXPECT_NEAR(g.tether_length[t], std::hypot(across, down), 2e-5f) << i << " of ring " << ring;
@@ -115,7 +139,7 @@ TEST(Tethers, OfADomeAreNoShorterThanStraightAndNoLongerThanItsEdges) {
   const Garment g = garment_of(dome, pins);
   const std::vector<float> along_edges = all_ways(g);
   const ConstVec3View x = g.rest_position.view();
-  for (std::size_t t = 0; t < g.tether_length.size(); ++t) {
+  for (const std::size_t t : tethers_of(g)) {
     const std::uint32_t i = g.tether_particle[t], pin = g.tether_pin[t];
     EXPECT_GE(g.tether_length[t], length(x[i] - x[pin]));
     EXPECT_LE(g.tether_length[t], along_edges[i * g.particle_count + pin] + 1e-5f);

@@ -294,5 +294,29 @@ TEST(Schedule, StiffSpringsGetMoreSubstepsAndSayWhenTheyNeedTooMany) {
   EXPECT_EQ(scene.stats().stiffness_lowered, 3u);
 }
 
+TEST(Schedule, StiffBendingActsInShorterStepsBeforeItTakesMoreSubsteps) {
+  Scene scene;
+  pleat_cloth_settings s = Scene::default_settings();
+  const pleat_cloth cloth = scene.cloth(scene.sheet(8), s);
+  const auto substeps_at = [&](float bend_stiffness) {
+    s.bend_stiffness = bend_stiffness;
+    must(call::cloth_set(scene, cloth, &s));
+    scene.step(1, 1.0f / 60);
+    return scene.info(cloth).substeps;
+  };
+  float carried = 5e-5f;  // N m, that six substeps carry in one piece: an explicit integrator takes no more of them
+  s.integrator = PLEAT_INTEGRATOR_SYMPLECTIC_EULER;
+  s.stiffness = 0.0f;
+  while (substeps_at(1.1f * carried) == 6u) carried *= 1.1f;
+  s.integrator = PLEAT_INTEGRATOR_PROJECTED;
+  s.stiffness = 335.0f;
+  EXPECT_EQ(substeps_at(10.0f * carried), 6u);  // four times shorter steps carry sixteen times as much
+  const std::uint32_t more = substeps_at(40.0f * carried);
+  EXPECT_TRUE(more > 6u && more <= 12u) << more;
+  EXPECT_EQ(scene.stats().stiffness_lowered, 0u);
+  EXPECT_EQ(substeps_at(1e4f * carried), 24u);
+  EXPECT_EQ(scene.stats().stiffness_lowered, 1u);
+}
+
 }  // namespace
 }  // namespace pleat

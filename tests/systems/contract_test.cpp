@@ -62,7 +62,7 @@ void guard(Sheet& s) {
 }
 void stretch(Sheet& s) {
   Stats stats;
-  s.run_packed(StretchConstraint{&s.garment, 0.001f, 1.0f, s.ways(), &s.packed.position}, stats);
+  s.run_packed(StretchConstraint{&s.garment.slots, 0.001f, 1.0f, s.ways(), &s.packed.position}, stats);
 }
 
 const Case kCases[] = {

@@ -15,9 +15,9 @@ TEST(EdgeWays, LeadFromEndToEnd) {
     if (set > widest_vectors()) continue;
     EdgeWays{&g, sheet.previous, &sheet.packed, sheet.edge_way.view()}.run(set);
     std::uint32_t edges = 0;
-    for (std::uint32_t s = 0; s < g.slot_count; ++s) {
-      const std::uint32_t i = g.slot_particle[0][s], j = g.slot_particle[1][s];
-      if (i == g.empty_place()) continue;
+    for (std::uint32_t s = 0; s < g.slots.count; ++s) {
+      const std::uint32_t i = g.slots.particle[0][s], j = g.slots.particle[1][s];
+      if (i == g.slots.empty_place) continue;
       EXPECT_EQ(sheet.edge_way.view()[s], sheet.previous[j] - sheet.previous[i]);
       ++edges;
     }

@@ -85,7 +85,7 @@ TEST(ElasticProjection, EndsWhereTheForceOfItsLawLeadsThere) {
       const std::uint32_t i = face.garment.edge_particle[0][0], j = face.garment.edge_particle[1][0];
       const float rest = face.garment.edge_rest_length[0];
       for (std::uint32_t k = 0; k < 3; ++k) face.position.set(k, face.position[k] * stretch);
-      face.garment.slot_count = kLanes;  // its first edge
+      face.garment.slots.count = kLanes;  // its first edge
       ElasticProjection edge = job(face, stiffness);
       edge.law.buckling = 0.01f;
       const Vec3 before = face.position[j] - face.position[i];
@@ -134,7 +134,7 @@ TEST(ElasticProjection, OfAStronglyDampedEdgeKeepsItsLength) {
       face.previous.set(i, face.position[i]);
       face.position.set(i, face.position[i] * stretch);
     }
-    face.garment.slot_count = kLanes;  // its first edge
+    face.garment.slots.count = kLanes;  // its first edge
     ElasticProjection edge = job(face, 1e-9f);
     edge.damping_rate = 1e6f;
     edge.run();
@@ -159,11 +159,20 @@ TEST(ElasticProjection, EdgeByEdgeAndSideBySideGiveTheSameBits) {
   }
 }
 
+TEST(ElasticProjection, TwoPassesAreTwoRuns) {
+  Sheet once = shaken_sheet(), twice = shaken_sheet();
+  ElasticProjection passes = job(once, 300.0f);
+  passes.passes = 2;
+  passes.run();
+  for (int k = 0; k < 2; ++k) job(twice, 300.0f).run();
+  for (std::uint32_t i = 0; i < once.count; ++i) EXPECT_EQ(once.position[i], twice.position[i]) << i;
+}
+
 TEST(ElasticProjection, LetsAPendulumKeepItsEnergy) {
   // A stiff edge of 1 m that turns about its pin at 4 rad/s, by hand: drift, then projection, then velocities.
   static constexpr std::uint32_t kPins[] = {0};
   Sheet sheet({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0, -1}}, {{0, 1, 2}}}, kPins);
-  sheet.garment.slot_count = kLanes;  // its first edge
+  sheet.garment.slots.count = kLanes;  // its first edge
   ASSERT_EQ(sheet.garment.edge_particle[0][0] + sheet.garment.edge_particle[1][0], 1u);
   Vec3 velocity{0, 4, 0};
   constexpr int kTurn = 754;  // steps, 2 pi / (4 rad/s)

@@ -44,7 +44,7 @@ struct Sheet {
       column->resize(count);
     }
     packed.make_room(count);
-    edge_way.resize(garment.slot_count);
+    edge_way.resize(garment.way_count);
     hinge_scratch.make_room(garment.hinge_count);
     particles.inverse_mass.resize(count);
     particles.mass.resize(count);

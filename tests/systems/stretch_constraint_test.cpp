@@ -11,7 +11,7 @@ namespace pleat {
 namespace {
 
 StretchConstraint job(Sheet& sheet, float limit = 0.001f) {
-  return {.garment = &sheet.garment, .limit = limit, .way = sheet.ways(), .position = &sheet.packed.position};
+  return {.slots = &sheet.garment.slots, .limit = limit, .way = sheet.ways(), .position = &sheet.packed.position};
 }
 
 float worst_strain(const Sheet& sheet) {
@@ -29,7 +29,7 @@ TEST(StretchConstraint, RefusesToRunWithAFieldMissing) {
   const StretchConstraint good = job(sheet);
   ASSERT_TRUE(good.validate());
   StretchConstraint bad = good;
-  bad.garment = nullptr;
+  bad.slots = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.way = {};
   EXPECT_FALSE(bad.validate());

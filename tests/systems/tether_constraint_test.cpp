@@ -41,6 +41,26 @@ TEST(TetherConstraint, ClothWithinReachOfItsPinsIsLeftAlone) {
   for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_EQ(sheet.position[i], before[i]) << i;
 }
 
+TEST(TetherConstraint, RunsOfLanesEndAsOneTetherAfterTheOther) {
+  for (const VectorSet set : kVectorSets) {
+    if (set > widest_vectors()) continue;
+    Sheet sheet(make_grid({.rows = kSide, .columns = kSide}), kCorners);
+    shake(sheet.position, sheet.count, 0.3f, 5);
+    std::vector<Vec3> expected;
+    for (std::uint32_t i = 0; i < sheet.count; ++i) expected.push_back(sheet.position[i]);
+    const Garment& g = sheet.garment;
+    for (std::size_t t = 0; t < g.tether_length.size(); ++t) {
+      if (g.tether_particle[t] == g.slots.empty_place) continue;
+      Vec3& x = expected[g.tether_particle[t]];
+      const Vec3 d = expected[g.tether_pin[t]] - x;
+      const float l = length(d), longest = (1.0f + 0.01f) * g.tether_length[t];
+      if (l > longest) x += d * (1.0f - longest / l);
+    }
+    sheet.run_packed(job(sheet, 0.01f), set);
+    for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_EQ(sheet.position[i], expected[i]) << i;
+  }
+}
+
 TEST(TetherConstraint, BringsAFarParticleBackToTheEndOfItsTether) {
   Sheet sheet(make_grid({.rows = kSide, .columns = kSide}), kCorners);
   const std::uint32_t below = (kSide - 1) * kSide;  // along the border, straight across from the first pin
