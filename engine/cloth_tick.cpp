@@ -70,9 +70,7 @@ void run_substep(ClothTick& t) {
   const int stages = t.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 ? 4 : 1;
   for (std::uint32_t step = 0; step < t.force_steps; ++step) {
     for (t.stage = 0; t.stage < stages; ++t.stage) {
-      std::fill_n(t.force.x, n, 0.0f);
-      std::fill_n(t.force.y, n, 0.0f);
-      std::fill_n(t.force.z, n, 0.0f);
+      clear(t.force, n);
       run_phase(t, Phase::kStage);
     }
   }
