@@ -1,7 +1,7 @@
 #include "components/coarse_levels.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <map>
 #include <vector>
 

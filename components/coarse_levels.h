@@ -19,9 +19,10 @@ inline constexpr std::uint32_t kCoarseDepth = 2 * kSweepReach;
 inline constexpr std::size_t kParents = 3;
 
 /// About a quarter of the particles of the next finer level, none of them neighbours there. Edges join those whose
-/// neighbourhoods meet, as long as the shortest way between them along finer edges: they say nothing that the garment's
-/// own edges do not say together. Children (C, padded with empty places of weight 0) are the finer level's other
-/// particles, but for pins; each has parents beside it, with weights that add up to 1.
+/// neighbourhoods meet, as long as the shortest way over one finer edge between these: no shorter than along the
+/// garment's own edges, so that they say nothing which those do not say together. Children (C, padded with empty places
+/// of weight 0) are the finer level's other particles, but for pins; each has parents beside it, with weights that add
+/// up to 1.
 struct CoarseLevel {
   EdgeSlots slots;
   std::uint32_t way_begin = 0;  // where those of its slots are among the garment's ways

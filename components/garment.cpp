@@ -7,7 +7,6 @@
 #include "components/creases.h"
 #include "components/edge_order.h"
 #include "components/hinge_stiffness.h"
-#include "components/lanes.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
 

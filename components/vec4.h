@@ -17,8 +17,8 @@ struct alignas(32) Motion {
   Vec4 position, velocity;
 };
 
-/// Of as many particles as one cloth has, padded, and two places more for empty slots of edges (garment.h): scratch of
-/// what works on edges and hinges, and where the particles are while sweeps and friction move them.
+/// Of as many particles as one cloth has, padded, and two places more for empty slots of edges (edge_slots.h): scratch
+/// of what works on edges and hinges, and where the particles are while sweeps and friction move them.
 struct Vec4Columns {
   Column<Vec4> position, force;  // m and, w, 1/kg of inverse mass; N
   Column<Vec4> begin;            // m, where a sweep began

@@ -53,6 +53,8 @@ void settle([[maybe_unused]] ClothTick& t) {
   if (t.loose || t.deep) stop(t);
 }
 
+std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
+
 /// Passes of strain limit and contact in each substep: as many more for each doubling of the depth, while coarse levels
 /// carry pulls. What carries them is all passes of a tick: where there are more substeps than the cloth's motion wants,
 /// because it is stiff, each needs fewer.
@@ -60,7 +62,8 @@ std::uint32_t sweeps_for(const ClothTick& t) {
   const std::uint32_t deep =
       t.settings.sweeps * (1 + static_cast<std::uint32_t>(std::bit_width(t.garment.depth / kSweepReach)));
   const std::uint32_t wanted = std::min(t.cloth.substeps_wanted, t.substeps);
-  return std::max(t.settings.sweeps, (deep * wanted + t.substeps - 1) / t.substeps);
+  const std::uint32_t least = t.garment.coarse.empty() ? 1 : kExactSweeps + 1;  // one goes over the coarse levels
+  return std::max({t.settings.sweeps, least, quotient_up(deep * wanted, t.substeps)});
 }
 
 void run_substep(ClothTick& t) {
@@ -124,8 +127,6 @@ StableStep stable_step(const ClothTick& t) {
 void note(Notice& notice) {
   if (notice == Notice::kNothing) notice = Notice::kDue;
 }
-
-std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
 std::uint32_t substeps_for(ClothTick& t, float dt) {
   const std::uint32_t least = substeps_against_tunnelling(t, dt);

@@ -31,15 +31,20 @@ namespace pleat {
 namespace {
 
 constexpr float kOverRelaxation = 1.6f;  // with 1.8 drapes at rest tremble more
-constexpr std::uint32_t kExactSweeps = 3;
-constexpr std::uint32_t kDeepElasticPasses = 3;
 #ifdef PLEAT_WITH_COLLISION
 constexpr float kCreepSpeed = 0.02f;  // m/s, of cloth that friction holds while the strain limit pulls at it
 #endif
 
+/// The limit only pulls. The more passes it makes over a cloth, the more of them give edges their length back; three
+/// where a garment is 8 edges deep make cloth tremble that is too tight for the body.
+std::uint32_t elastic_passes(const ClothTick& t) {
+  if (t.settings.stretch_limit >= 1.0f || t.garment.depth < kSweepReach) return 1;
+  return t.garment.coarse.empty() ? 2 : 3;
+}
+
 /// In deep cloth all passes but a substep's last ones pull too far, so that fewer are needed; those put that right.
 float relaxation_of(const ClothTick& t) {
-  return t.garment.depth >= kCoarseDepth && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
+  return !t.garment.coarse.empty() && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
 }
 
 void limit_stretch(ClothTick& t) {
@@ -115,7 +120,7 @@ constexpr Row kRows[] = {
                              .way = t.worker.edge_way.view(),
                              .position = t.position,
                              .packed = &t.worker.packed,
-                             .passes = t.garment.depth < kSweepReach ? 1 : kDeepElasticPasses});
+                             .passes = elastic_passes(t)});
      }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.
@@ -264,7 +269,7 @@ constexpr Row kRows[] = {
 
     {Phase::kSweep, "coarse_stretch",
      [](const World& w, const ClothRecord& c) {
-       return c.garment().coarse.empty() ? "no particle is far from a pin" : with_stretch_limit(w, c);
+       return c.garment().coarse.empty() ? "less than 16 edges deep" : with_stretch_limit(w, c);
      },
      [](ClothTick& t) {
        if (t.sweeps_left <= kExactSweeps) return;

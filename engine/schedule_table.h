@@ -23,6 +23,9 @@ enum class Phase : std::uint32_t {
 };
 inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::kFrameEnd) + 1;
 
+/// Of a substep's sweeps, the last: they go over the edges alone and pull no farther than their rest lengths.
+inline constexpr std::uint32_t kExactSweeps = 3;
+
 /// One cloth during one tick: the views of its ranges, and where in the tick it is.
 struct ClothTick {
   World& world;

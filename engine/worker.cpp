@@ -26,7 +26,7 @@ void at_least(Column& column, std::size_t size) {
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   if (cloth.pattern() == nullptr) return;
-  at_least(worker.normal_sum, std::max(cloth.pattern()->shaded_count(), g.normal_count));
+  at_least(worker.normal_sum, std::max(cloth.pattern()->shaded_count() + kLanes, g.normal_count));
   at_least(worker.bulge, g.face_count);
   if (cloth.settings.surface != PLEAT_SURFACE_PLEAT) return;
   worker.fold_choices.make_room(g.edge_count, g.face_count);

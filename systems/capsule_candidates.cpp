@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "components/wide.h"
-#include "systems/box.h"
 #include "systems/capsule_lanes.h"
 #include "systems/contact_row.h"
 

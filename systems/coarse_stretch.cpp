@@ -30,7 +30,9 @@ bool CoarseStretch::validate() const {
 }
 
 void CoarseStretch::run(Stats& stats, VectorSet set) const {
-  std::copy_n(position->begin(), garment->slots.empty_place + 2, begin->begin());
+  const std::uint32_t empty = garment->slots.empty_place;  // a parent of weight 0: it must be finite
+  (*position)[empty] = (*position)[empty + 1] = {};
+  std::copy_n(position->begin(), empty + 2, begin->begin());
   for (const CoarseLevel& level : garment->coarse) {
     run_wide(set, [&] {
       stats.edges_skipped += limit_edges(level.slots, limit, relaxation, way.from(level.way_begin), *position, set);

@@ -16,7 +16,7 @@ namespace pleat {
 struct DrawnNormals {
   const TessellationPattern* pattern = nullptr;
   ConstVec3View position;
-  Vec4* sum = nullptr;  // (S) m2, a column
+  Vec4* sum = nullptr;  // (S) m2, and kLanes more
   Vec3View normal;
 
   bool validate() const;

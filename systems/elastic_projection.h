@@ -16,8 +16,8 @@ namespace pleat {
 ///   F = (k (l - L)/L + c (l - l0)/(l0 dt)) q,   c = rate / (w_i + w_j)
 /// where d = x_j - x_i, q is the same where the step began, and l0 its length (pull_direction.h).
 /// For soft edges that is their force, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
-/// that would end past its buckling is solved on that line of its law. More passes give edges back more of
-/// the length that the strain limit, which only pulls, takes from them in its many passes over deep cloth.
+/// that would end past its buckling is solved on that line of its law. Each further pass adds as
+/// much stiffness and damping again, for passes keep no multipliers.
 /// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
 /// Writes: position (P) m; packed, scratch.  Cost: O(P + S passes), no allocation.  Errors: none.
 struct ElasticProjection {

@@ -57,6 +57,7 @@ float SpeedBound::run() const {
     energy += 0.5f * std::min(stiffness, carried) * longer * longer * std::max(1.0f, longer / std::max(rest, 1e-9f));
   }
   for (std::size_t t = 0; t < garment->tether_length.size(); ++t) {
+    if (garment->tether_particle[t] == garment->slots.empty_place) continue;
     const Vec3 way_to_pin = start[garment->tether_pin[t]] - start[garment->tether_particle[t]];
     excess = std::max(excess, length(way_to_pin) - garment->tether_length[t]);
   }

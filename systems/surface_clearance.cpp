@@ -214,12 +214,14 @@ struct Lifter {
 
   PLEAT_KERNEL void look_at(const PlanePose& body) {
     for (std::uint32_t begin = 0; begin < in.garment->face_count; begin += kLanes) {
-      const FaceGroup faces = group(begin);
+      FaceGroup faces = group(begin);
       const Lanes reach = body.height + in.clearance + faces.size + 2.0f * faces.bulge;
       std::uint32_t near = bits(dot(all(body.normal), faces.center) < reach) & valid(begin);
       for (; near != 0; near &= near - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+        const std::uint32_t before = settled;
         keep_above(begin + lane, faces.bulge[lane], body);
+        if (settled != before) faces = group(begin);
       }
     }
   }

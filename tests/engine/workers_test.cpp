@@ -51,7 +51,7 @@ struct Mess {
   }
   explicit Mess(std::uint32_t workers, pleat_parallel_for_fn parallel_for = nullptr, void* user = nullptr)
       : scene(def(workers, parallel_for, user)) {
-    const pleat_garment garments[] = {scene.sheet(4), scene.sheet(6), scene.sheet(9)};
+    const pleat_garment garments[] = {scene.sheet(4), scene.sheet(6), scene.sheet(18)};
     for (std::uint32_t k = 0; k < 14; ++k) {
       pleat_cloth_settings s = Scene::default_settings();
       s.integrator = k % 5;

@@ -103,6 +103,17 @@ TEST(CoarseStretch, PinsHoldAndAllVectorSetsGiveTheSameBits) {
   }
 }
 
+TEST(CoarseStretch, WhatAnotherClothLeftInEmptyPlacesGoesNowhere) {
+  Sheet sheet = stretched(0.05f);
+  const CoarseStretch good = job(sheet);
+  for (const std::uint32_t k : {0u, 1u}) {
+    sheet.packed.position[sheet.garment.slots.empty_place + k] = {kNan, kNan, kNan, 1.0f};
+  }
+  Stats stats;
+  sheet.run_packed(good, stats);
+  for (std::uint32_t i = 0; i < sheet.count; ++i) EXPECT_TRUE(is_finite(sheet.position[i])) << i;
+}
+
 TEST(CoarseStretch, SurvivesACollapsedCloth) {
   Sheet sheet = stretched(0.0f);
   for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, {0, 0, 0}), sheet.previous.set(i, {0, 0, 0});

@@ -25,6 +25,21 @@ TEST(EdgeWays, LeadFromEndToEnd) {
   }
 }
 
+TEST(EdgeWays, ThoseOfCoarseLevelsFollow) {
+  constexpr std::uint32_t kCorner[] = {0};
+  Sheet sheet(make_grid({.rows = 40, .columns = 40}), kCorner);
+  shake(sheet.previous, sheet.count, 0.5f, 3);
+  const ConstVec3View way = sheet.ways();
+  ASSERT_GE(sheet.garment.coarse.size(), 1u);
+  for (const CoarseLevel& level : sheet.garment.coarse) {
+    for (std::uint32_t s = 0; s < level.slots.count; ++s) {
+      const std::uint32_t i = level.slots.particle[0][s], j = level.slots.particle[1][s];
+      if (i == level.slots.empty_place) continue;
+      EXPECT_EQ(way[level.way_begin + s], sheet.previous[j] - sheet.previous[i]);
+    }
+  }
+}
+
 TEST(EdgeWays, RefusesToRunWithAFieldMissing) {
   Sheet sheet(make_grid({.rows = 2, .columns = 2}));
   const EdgeWays good{&sheet.garment, sheet.previous, &sheet.packed, sheet.edge_way.view()};

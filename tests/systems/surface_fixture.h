@@ -65,8 +65,8 @@ struct Surface {
     bulge.resize(garment.face_count);
     choices.make_room(garment.edge_count, garment.face_count);
     drawn.resize(pattern.vertex_count);
-    drawn_normal.resize(pattern.shaded_count()),
-        normal_sum.resize(std::max(pattern.shaded_count(), garment.normal_count));
+    drawn_normal.resize(pattern.shaded_count());
+    normal_sum.resize(std::max(pattern.shaded_count() + kLanes, garment.normal_count));
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) position.view().set(i, garment.rest_position.view()[i]);
   }
 
