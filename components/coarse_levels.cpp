@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "components/garment.h"
@@ -71,7 +72,7 @@ std::vector<bool> choose_apart(const Net& net, const Order& order) {
 std::vector<Link> parents_of(const Net& net, const std::vector<bool>& chosen, std::uint32_t i) {
   std::vector<Link> parents;
   std::ranges::copy_if(net.links[i], std::back_inserter(parents), [&](const Link& link) { return chosen[link.to]; });
-  std::ranges::stable_sort(parents, {}, &Link::length);
+  std::ranges::sort(parents, {}, [](const Link& link) { return std::tuple(link.length, link.to); });
   return parents;
 }
 

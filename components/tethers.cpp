@@ -1,6 +1,7 @@
 #include "components/tethers.h"
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "components/geodesics.h"
@@ -32,8 +33,8 @@ Farthest farthest_from(std::vector<std::uint32_t> start, const IndexLists& edges
 
 /// Every particle's nearest pin, then every one's next: a run of lanes has no particle twice.
 void add_tethers(Garment& g) {
-  std::vector<Way> ways = ways_to_pins(g);  // shortest first
-  std::ranges::stable_sort(ways, {}, &Way::particle);
+  std::vector<Way> ways = ways_to_pins(g);
+  std::ranges::sort(ways, {}, [](const Way& way) { return std::tuple(way.particle, way.length, way.pin); });
   const std::uint32_t nowhere = g.slots.empty_place;
   for (std::size_t nth = 0; nth < kPinsPerParticle; ++nth) {
     std::size_t before = 0;  // ways of the same particle
