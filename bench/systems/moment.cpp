@@ -44,7 +44,7 @@ ClothTick Moment::reach() {
   ClothTick t(world, world.workers[0], world.clothes[0]);
   t.frame_dt = KickingSkirt::kTick;
   if (watch_.substep == 0) return t;
-  t.dt = t.frame_dt / substeps;
+  t.dt = t.force_dt = t.frame_dt / substeps;
   t.t0 = (after - 1.0f) / substeps;
   t.t1 = after / substeps;
   t.spring_room = std::numeric_limits<float>::infinity();  // these springs need no softening

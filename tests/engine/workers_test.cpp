@@ -51,7 +51,7 @@ struct Mess {
   }
   explicit Mess(std::uint32_t workers, pleat_parallel_for_fn parallel_for = nullptr, void* user = nullptr)
       : scene(def(workers, parallel_for, user)) {
-    const pleat_garment garments[] = {scene.sheet(4), scene.sheet(6), scene.sheet(18)};
+    const pleat_garment garments[] = {scene.sheet(4), scene.sheet(6), scene.sheet(9)};
     for (std::uint32_t k = 0; k < 14; ++k) {
       pleat_cloth_settings s = Scene::default_settings();
       s.integrator = k % 5;
@@ -70,6 +70,7 @@ struct Mess {
       if (k == 12) s.drag_coefficient = 0.0f, s.sleep_speed = 1.0f, s.air_damping = 50.0f;
       cloths.push_back(scene.cloth(garments[k % 3], s));
     }
+    cloths.push_back(scene.cloth(scene.sheet(18)));  // so deep that it has coarse levels
 #ifdef PLEAT_WITH_COLLISION
     scene.sphere(0.2f, -0.6f, -0.1f, 0.2f);
     ball = scene.sphere(-0.8f, -0.2f, 0.0f, 0.15f);
