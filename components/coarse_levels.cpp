@@ -140,8 +140,8 @@ void add_edges(const Garment& g, const Net& net, std::span<const std::uint32_t> 
 
 }  // namespace
 
-void add_coarse_levels(std::span<const std::uint32_t> from, Garment& g) {
-  std::vector<std::uint32_t> roots(from.begin(), from.end());
+void add_coarse_levels(Garment& g) {
+  std::vector<std::uint32_t> roots(g.pins.begin(), g.pins.end());
   Net net = finest(g);
   for (;;) {
     const Order order(net, roots);

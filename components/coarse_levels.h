@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory_resource>
-#include <span>
 
 #include "components/edge_slots.h"
 #include "components/tethers.h"
@@ -36,9 +35,9 @@ struct CoarseLevel {
         weight{Column<float>(m), Column<float>(m), Column<float>(m)} {}
 };
 
-/// Fills the garment's levels, the coarsest first, and counts its ways. The garment has its edges, slots and pins;
-/// `from` are its pins or, where it has none, its middle. There are levels as long as some particle is kCoarseDepth
-/// edges from these. Cost: O(E log E). Throws std::bad_alloc.
-void add_coarse_levels(std::span<const std::uint32_t> from, Garment& garment);
+/// Fills the garment's levels, the coarsest first, and counts its ways. The garment has its edges, slots and pins.
+/// There are levels as long as some particle is kCoarseDepth edges from these; without pins none, for cloth that lies
+/// on something is held all over, and with levels trembled more there. Cost: O(E log E). Throws std::bad_alloc.
+void add_coarse_levels(Garment& garment);
 
 }  // namespace pleat

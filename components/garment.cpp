@@ -200,7 +200,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   add_hinges(garment);
   measure_hinges(garment);
   measure_tethers(garment);
-  add_coarse_levels(roots_of(input), garment);
+  add_coarse_levels(garment);
   find_creases(input.seams, input.crease_angle, garment);
   measure_rest_curves(garment);
   return garment;

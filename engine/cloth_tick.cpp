@@ -55,14 +55,16 @@ void settle([[maybe_unused]] ClothTick& t) {
 
 std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
-/// Passes of strain limit and contact in each substep: as many more for each doubling of the depth, while coarse levels
-/// carry pulls. What carries them is all passes of a tick: where there are more substeps than the cloth's motion wants,
-/// because it is stiff, each needs fewer.
+/// Passes of strain limit and contact in each substep: as many more for each kSweepReach of the depth or, where coarse
+/// levels carry pulls, for each doubling of it. What carries them is all passes of a tick: where there are more
+/// substeps than the cloth's motion wants, because it is stiff, each needs fewer.
 std::uint32_t sweeps_for(const ClothTick& t) {
-  const std::uint32_t deep =
-      t.settings.sweeps * (1 + static_cast<std::uint32_t>(std::bit_width(t.garment.depth / kSweepReach)));
+  const std::uint32_t reaches = t.garment.depth / kSweepReach;
+  const bool has_levels = !t.garment.coarse.empty();
+  const std::uint32_t more = has_levels ? static_cast<std::uint32_t>(std::bit_width(reaches)) : reaches;
+  const std::uint32_t deep = t.settings.sweeps * (1 + more);
   const std::uint32_t wanted = std::min(t.cloth.substeps_wanted, t.substeps);
-  const std::uint32_t least = t.garment.coarse.empty() ? 1 : kExactSweeps + 1;  // one goes over the coarse levels
+  const std::uint32_t least = has_levels ? kExactSweeps + 1 : 1;  // one goes over the coarse levels
   return std::max({t.settings.sweeps, least, quotient_up(deep * wanted, t.substeps)});
 }
 
@@ -133,7 +135,9 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
   const StableStep stable = stable_step(t);
   assert(stable.validate());
   const bool projected = t.settings.integrator == PLEAT_INTEGRATOR_PROJECTED;
-  const std::uint32_t pieces = projected ? kMostForceSteps : 1;  // that a substep may be cut into
+  // Cloth without pins lies on something, and contact wants the substeps too.
+  const bool only_bends = projected && t.garment.pins.size() != 0;
+  const std::uint32_t pieces = only_bends ? kMostForceSteps : 1;  // that a substep may be cut into
   std::uint32_t n = t.cloth.substeps_wanted = t.settings.substeps;
   if (n == 0) {
     const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;

@@ -35,16 +35,17 @@ constexpr float kOverRelaxation = 1.6f;  // with 1.8 drapes at rest tremble more
 constexpr float kCreepSpeed = 0.02f;  // m/s, of cloth that friction holds while the strain limit pulls at it
 #endif
 
-/// The limit only pulls. The more passes it makes over a cloth, the more of them give edges their length back; three
-/// where a garment is 8 edges deep make cloth tremble that is too tight for the body.
+/// The limit only pulls. The more passes it makes over cloth that hangs, the more of them give edges their length back;
+/// three where a garment is 8 edges deep make cloth tremble that is too tight for the body, and two cloth that lies.
 std::uint32_t elastic_passes(const ClothTick& t) {
-  if (t.settings.stretch_limit >= 1.0f || t.garment.depth < kSweepReach) return 1;
+  const bool hangs = t.garment.pins.size() != 0 && t.settings.stretch_limit < 1.0f;
+  if (!hangs || t.garment.depth < kSweepReach) return 1;
   return t.garment.coarse.empty() ? 2 : 3;
 }
 
 /// In deep cloth all passes but a substep's last ones pull too far, so that fewer are needed; those put that right.
 float relaxation_of(const ClothTick& t) {
-  return !t.garment.coarse.empty() && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
+  return t.garment.depth >= kCoarseDepth && t.sweeps_left > kExactSweeps ? kOverRelaxation : 1.0f;
 }
 
 void limit_stretch(ClothTick& t) {
@@ -269,7 +270,7 @@ constexpr Row kRows[] = {
 
     {Phase::kSweep, "coarse_stretch",
      [](const World& w, const ClothRecord& c) {
-       return c.garment().coarse.empty() ? "less than 16 edges deep" : with_stretch_limit(w, c);
+       return c.garment().coarse.empty() ? "no particle is 16 edges from a pin" : with_stretch_limit(w, c);
      },
      [](ClothTick& t) {
        if (t.sweeps_left <= kExactSweeps) return;

@@ -30,6 +30,7 @@ constexpr std::uint32_t kCorner[] = {0};
 TEST(CoarseLevels, ShallowGarmentsHaveNone) {
   EXPECT_TRUE(square(kCoarseDepth, kCorner).coarse.empty());
   EXPECT_EQ(square(kCoarseDepth + 1, kCorner).coarse.size(), 1u);
+  EXPECT_TRUE(square(3 * kCoarseDepth, {}).coarse.empty());
 }
 
 TEST(CoarseLevels, AreAThirdToASixthOfTheNextFinerOne) {
@@ -95,13 +96,13 @@ TEST(CoarseLevels, EdgesAreWaysAlongEdgesNeverShorterThanStraight) {
   }
 }
 
-TEST(CoarseLevels, ClothWithoutPinsAndOfTwoPiecesHasThemToo) {
+TEST(CoarseLevels, PiecesWithoutPinsAreTakenAlong) {
   Mesh mesh = make_grid({.rows = 40, .columns = 40});
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const Mesh other = make_grid({.rows = 5, .columns = 5});
   for (const Vec3& p : other.positions) mesh.positions.push_back(p + Vec3{3, 0, 0});
   for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  const Garment g = garment_of(mesh, {});
+  const Garment g = garment_of(mesh, kCorner);
   ASSERT_FALSE(g.coarse.empty());
   expect_all_found(g);
   for (const CoarseLevel& level : g.coarse) {
