@@ -214,12 +214,12 @@ typedef struct pleat_cloth_settings {
   uint32_t integrator; /* default PLEAT_INTEGRATOR_PROJECTED */
   uint32_t substeps;   /* internal steps a tick; 0 (default): as many as world_def.max_substep asks for, and more when
                           a capsule crosses the cloth fast or, up to four times as many, when springs or bending need
-                          shorter steps to be stable; at most 64. `projected` lets forces act in up to four steps of
-                          each before that. Where all is not enough the stiffest edges act softer: see
-                          stiffness_lowered */
+                          shorter steps to be stable; at most 64. Of cloth with pins `projected` lets forces act
+                          in up to four steps of each before that. Where all is not enough the stiffest edges act
+                          softer: see stiffness_lowered */
   uint32_t sweeps;     /* passes of strain limit and contact in a substep; as many more where the farthest particle is 8
-                          edges from the pins, and for each doubling of that way; fewer where stiffness asks for more
-                          substeps; default 3, 1..64 */
+                          edges from the pins, and for each doubling of that way (without pins for each 8 edges); fewer
+                          where stiffness asks for more substeps; default 3, 1..64 */
   float density;       /* kg/m2; default 0.2 */
   float stiffness; /* k of eq (1), N/m; default 335. Holds against slight compression; the strain limit holds the length
                     */
