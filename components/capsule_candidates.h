@@ -61,9 +61,6 @@ struct CapsuleCandidateColumns {
   /// Forgets what was found: another garment may come to be where this one was.
   void make_room(const Garment& g, std::size_t capsules) {
     const std::size_t words = FeatureWords(g).end;
-    const auto at_least = [](auto& column, std::size_t size) {
-      if (column.size() < size) column.resize(size);
-    };
     at_least(near, std::size(kFeatureKinds) * capsules);
     at_least(feature, 64 * words * std::min(capsules, kCapsulesPerFeature));
     at_least(marked, words * capsules);

@@ -119,6 +119,12 @@ struct Vec3View {
   operator ConstVec3View() const { return {x, y, z}; }
 };
 
+/// Room for `size` elements or vectors, where there is less.
+template <class AnyColumn>
+void at_least(AnyColumn& column, std::size_t size) {
+  if (column.size() < size) column.resize(size);
+}
+
 inline void clear(const Vec3View& v, std::size_t count) {
   std::fill_n(v.x, count, 0.0f), std::fill_n(v.y, count, 0.0f), std::fill_n(v.z, count, 0.0f);
 }

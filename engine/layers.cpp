@@ -23,9 +23,6 @@ void forget_layer_pairs(World& world) {
 void make_layer_room(World& world, const ClothRecord& cloth) {
   LayerColumns& layers = world.layers;
   if (cloth.settings.layer == 0 && layers.begin.size() == 0) return;
-  const auto at_least = [](auto& column, std::size_t size) {
-    if (column.size() < size) column.resize(size);
-  };
   const std::size_t particles = world.particles.mass.size();
   at_least(layers.begin, particles);
   at_least(layers.sought_at, particles);

@@ -8,11 +8,6 @@
 namespace pleat {
 namespace {
 
-template <class Column>
-void at_least(Column& column, std::size_t size) {
-  if (column.size() < size) column.resize(size);
-}
-
 /// All columns get the size, or, where memory runs out, none.
 template <class... Columns>
 void resize_together(std::size_t size, Columns&... columns) {

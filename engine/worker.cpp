@@ -18,11 +18,6 @@ constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with m
 constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
 constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
 
-template <class Column>
-void at_least(Column& column, std::size_t size) {
-  if (column.size() < size) column.resize(size);
-}
-
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   if (cloth.pattern() == nullptr) return;
