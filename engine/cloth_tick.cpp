@@ -27,6 +27,7 @@ namespace {
 constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::uint32_t kStiffSubsteps = 4;   // times as many as without stiff springs, at most
 constexpr std::uint32_t kMostForceSteps = 4;  // of a substep, where nothing but bending is stiff
+constexpr float kBendingHeld = 1.0f / 120;    // s, for how long its force is held where it is soft, at most
 constexpr float kLooseStart = 0.005f;         // elongation beyond the strain limit that a start may have
 constexpr int kRetries = 2;                   // of a tick that went wrong, each with twice the substeps, 128 at most
 
@@ -162,12 +163,24 @@ std::uint32_t substeps_for(ClothTick& t, float dt) {
   return n;
 }
 
+/// For how many substeps a force of bending acts: one that is held for so long must be as stable as in one step.
+std::uint32_t substeps_that_bend_alike(const ClothTick& t) {
+  if (t.settings.integrator != PLEAT_INTEGRATOR_PROJECTED || t.force_steps > 1) return 1;
+  const StableStep stable = stable_step(t);
+  std::uint32_t n = 1;
+  for (; t.dt * static_cast<float>(n + 1) <= 1.001f * kBendingHeld; ++n) {
+    if (stable.run(t.dt * static_cast<float>(n + 1), 1, 1) != 1) break;
+  }
+  return n;
+}
+
 void run_substeps(ClothTick& t, std::uint32_t n) {
   const float dt = t.frame_dt;
   t.substeps = n;
   t.dt = dt / static_cast<float>(n);
   t.force_dt = t.dt / static_cast<float>(t.force_steps);
   const bool implicit = t.settings.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
+  t.bending_held = substeps_that_bend_alike(t);
   t.spring_room = implicit ? std::numeric_limits<float>::infinity() : stable_step(t).room(t.dt);
   t.trouble = false;
   t.worker.contact_count = 0;
@@ -189,6 +202,7 @@ void roll_back(ClothTick& t) {
     for (std::size_t i = 0; i < n; ++i) held.set(i, {});
   }
   t.cloth.self_pair_count = t.cloth.layer_pair_count = kNone;
+  t.cloth.bending_left = 0;
 }
 
 /// The cloth as it was when the tick began, at rest, carried to where its pins are.

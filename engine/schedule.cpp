@@ -166,6 +166,7 @@ void refresh(World& world, ClothRecord& cloth) {
   assert(bound.validate());
   cloth.rates = bound.run();
   cloth.lowered = Notice::kNothing;
+  cloth.bending_left = 0;
   wake(cloth);
   cloth.plan = plan_of(world, cloth);
 #ifdef PLEAT_WITH_COLLISION

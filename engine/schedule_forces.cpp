@@ -12,6 +12,7 @@
 #include "systems/inner_friction.h"
 #include "systems/integration.h"
 #include "systems/pin_motion.h"
+#include "systems/slow_force.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/contact_acceleration.h"
 #endif
@@ -32,6 +33,12 @@ const char* without_air(const World& w, const ClothRecord& c) {
   return slips                       ? "drag_coefficient and lift_coefficient are 0"
          : w.def.air_density == 0.0f ? "air_density is 0"
                                      : kNeeded;
+}
+
+const char* with_bending(const World&, const ClothRecord& c) {
+  return c.garment().hinge_count == 0                                           ? "no two faces share an edge"
+         : c.settings.bend_stiffness == 0.0f && c.settings.bend_damping == 0.0f ? "bend_stiffness is 0"
+                                                                                : kNeeded;
 }
 
 constexpr Row kRows[] = {
@@ -63,24 +70,32 @@ constexpr Row kRows[] = {
                         .room = t.spring_room,
                         .force = t.force});
      }},
-    {Phase::kStage, "hinge_bending",
-     [](const World&, const ClothRecord& c) {
-       return c.garment().hinge_count == 0                                           ? "no two faces share an edge"
-              : c.settings.bend_stiffness == 0.0f && c.settings.bend_damping == 0.0f ? "bend_stiffness is 0"
-                                                                                     : kNeeded;
-     },
+    {Phase::kStage, "hinge_bending", with_bending,
      [](ClothTick& t) {
+       if (t.cloth.bending_left != 0) {
+         --t.cloth.bending_left;
+         return;
+       }
+       t.cloth.bending_left = t.bending_held - 1;
+       const Vec3View bending = t.world.bending.view().from(t.cloth.particle_begin);
+       clear(bending, t.garment.particle_count);
        run(HingeBending{.garment = &t.garment,
                         .position = t.position,
                         .velocity = t.velocity,
                         .inverse_mass = t.inverse_mass,
                         .stiffness = t.settings.bend_stiffness,
                         .damping_rate = t.settings.bend_damping,
-                        .dt = t.force_dt,
+                        .dt = t.force_dt * static_cast<float>(t.bending_held),
                         .packed = &t.worker.packed,
                         .scratch = &t.worker.hinge_scratch,
-                        .force = t.force,
+                        .force = bending,
                         .step_damping = projected(t.settings) ? kStepDamping : 0.0f});
+     }},
+    {Phase::kStage, "slow_force", with_bending,
+     [](ClothTick& t) {
+       run(SlowForce{.particle_count = t.garment.particle_count,
+                     .slow = t.world.bending.view().from(t.cloth.particle_begin),
+                     .force = t.force});
      }},
     {Phase::kStage, "edge_damping",
      [](const World& w, const ClothRecord& c) {

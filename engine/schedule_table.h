@@ -34,21 +34,22 @@ struct ClothTick {
   const Garment& garment;
   const pleat_cloth_settings& settings;
 
-  float dt = 0.0f;                // s, of the present substep
-  float force_dt = 0.0f;          // s, of the steps in it in which forces act
-  float t0 = 0.0f, t1 = 1.0f;     // the present substep's begin and end as fractions of the tick
-  float spring_room = 0.0f;       // 1/s2, the largest omega^2 of springs that the present substep carries
-  float frame_dt = 0.0f;          // s, of the tick; 0 when the surface is brought up to date between ticks
-  std::uint32_t substeps = 1;     // of the tick
-  std::uint32_t force_steps = 1;  // of each
-  std::uint32_t sweeps_left = 0;  // of the present substep, the present one included
-  int stage = 0;                  // of the integrator
-  std::uint32_t cloth_rows = 0;   // of contact: the first ones, with the cloth itself and with layers
-  bool trouble = false;           // the tick has gone wrong
-  bool loose = false;             // a start that is stretched
-  bool deep = false;              // a start inside a body, which it is coming out of
-  double time = 0.0;              // s, when the present substep begins
-  Vec3 air;                       // m/s, velocity of the air now
+  float dt = 0.0f;                 // s, of the present substep
+  float force_dt = 0.0f;           // s, of the steps in it in which forces act
+  float t0 = 0.0f, t1 = 1.0f;      // the present substep's begin and end as fractions of the tick
+  float spring_room = 0.0f;        // 1/s2, the largest omega^2 of springs that the present substep carries
+  float frame_dt = 0.0f;           // s, of the tick; 0 when the surface is brought up to date between ticks
+  std::uint32_t substeps = 1;      // of the tick
+  std::uint32_t force_steps = 1;   // of each
+  std::uint32_t bending_held = 1;  // substeps for which a force of bending acts
+  std::uint32_t sweeps_left = 0;   // of the present substep, the present one included
+  int stage = 0;                   // of the integrator
+  std::uint32_t cloth_rows = 0;    // of contact: the first ones, with the cloth itself and with layers
+  bool trouble = false;            // the tick has gone wrong
+  bool loose = false;              // a start that is stretched
+  bool deep = false;               // a start inside a body, which it is coming out of
+  double time = 0.0;               // s, when the present substep begins
+  Vec3 air;                        // m/s, velocity of the air now
 
   Vec3View position, velocity, force, previous, predicted;
   Vec3View start, start_velocity;  // as the tick began

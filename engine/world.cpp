@@ -96,6 +96,7 @@ World::World(const pleat_world_def& definition)
       pin_previous(&memory),
       pin_next(&memory),
       held(&memory),
+      bending(&memory),
       runge_kutta(&memory),
       self(&memory),
       layers(&memory),
@@ -198,7 +199,7 @@ void remove_cloth(World& world, std::uint32_t position) {
   p.inverse_mass.erase(cloth.particle_begin, particles);
   p.mass.erase(cloth.particle_begin, particles);
   for (Vec3Column* column :
-       {&world.held, &world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
+       {&world.held, &world.bending, &world.runge_kutta.start_velocity, &world.runge_kutta.position_slope,
         &world.runge_kutta.velocity_slope, &world.self.sought_at, &world.layers.sought_at, &world.layers.begin}) {
     erase_if_present(*column, cloth.particle_begin, particles);
   }
@@ -250,6 +251,7 @@ std::uint64_t bytes_of(const World& world, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
   const std::uint64_t particle =
       7 * sizeof(Vec3) + 2 * sizeof(float) + (world.held.size() != 0 ? sizeof(Vec3) : 0) +
+      (world.bending.size() != 0 ? sizeof(Vec3) : 0) +
       (world.runge_kutta.start_velocity.size() != 0 ? 3 * sizeof(Vec3) : 0) +
       (world.self.pairs.size() != 0 ? sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0) +
       (world.layers.pairs.size() != 0 ? 2 * sizeof(Vec3) + SelfColumns::kPairsPerParticle * sizeof(NearPair) : 0);

@@ -75,6 +75,7 @@ struct ClothRecord {
   float fold_share = 1.0f;                   // of their height, with which folds are drawn
   float substep_share = 1.0f;                // that is taken of those wanted
   std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
+  std::uint32_t bending_left = 0;            // substeps for which its force of bending is still held
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
   float settling = kSettling;                // s, for how much longer a start that does not fit is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
@@ -129,6 +130,7 @@ struct World {
   ParticleColumns particles;
   Vec3Column pin_previous, pin_next;  // m, where pins were at the last tick's end and shall be at the next one's
   Vec3Column held;                    // m/s2, what inner friction holds at rest; empty unless a cloth has it
+  Vec3Column bending;                 // N, as long as it is held; empty unless a cloth resists bending
   RungeKuttaColumns runge_kutta;      // empty unless a cloth integrates by it
   SelfColumns self;                   // empty unless a cloth touches itself
   LayerColumns layers;                // empty unless a cloth has a layer

@@ -52,24 +52,27 @@ TEST(Wind, GustsRunOnlyWhereThereIsSomethingToBlowAt) {
   EXPECT_TRUE(scene.explain("gust").ends_with("left out: gust is 0"));
 }
 
+/// A sheet of a metre; where it flutters to is chance, its edges are torn to more than twice their length.
 TEST(Wind, StormOfAThousandMetresASecondIsBorne) {
   for (const float dt : {1.0f / 30, 1.0f / 240}) {
     for (const float lift : {0.0f, 2.0f}) {
-      pleat_world_def def = Scene::default_def();
-      def.wind[0] = 600.0f, def.wind[1] = 500.0f, def.wind[2] = 620.0f;
-      def.gust = 100.0f;
-      Scene scene(def);
-      pleat_cloth_settings s = Scene::default_settings();
-      s.drag_coefficient = 1.28f;
-      s.lift_coefficient = lift;
-      const pleat_cloth cloth = scene.cloth(scene.sheet(6), s);
-      for (int i = 0; i < 60; ++i) {
-        scene.step(1, dt);
-        const std::vector<float> state = scene.particles(cloth);
-        for (std::size_t k = 0; k < state.size(); ++k) {
-          ASSERT_TRUE(std::isfinite(state[k]));
-          const bool is_position = k < state.size() / 2;
-          ASSERT_LT(std::abs(state[k]), is_position ? 3.0f : 1500.0f) << k << " of tick " << i;
+      for (const float share : {0.97f, 0.98f, 0.99f, 1.0f, 1.01f, 1.02f, 1.03f}) {
+        pleat_world_def def = Scene::default_def();
+        def.wind[0] = 600.0f * share, def.wind[1] = 500.0f * share, def.wind[2] = 620.0f * share;
+        def.gust = 100.0f;
+        Scene scene(def);
+        pleat_cloth_settings s = Scene::default_settings();
+        s.drag_coefficient = 1.28f;
+        s.lift_coefficient = lift;
+        const pleat_cloth cloth = scene.cloth(scene.sheet(6), s);
+        for (int i = 0; i < 60; ++i) {
+          scene.step(1, dt);
+          const std::vector<float> state = scene.particles(cloth);
+          for (std::size_t k = 0; k < state.size(); ++k) {
+            ASSERT_TRUE(std::isfinite(state[k]));
+            const bool is_position = k < state.size() / 2;
+            ASSERT_LT(std::abs(state[k]), is_position ? 3.5f : 1500.0f) << k << " of tick " << i << " at " << share;
+          }
         }
       }
     }
