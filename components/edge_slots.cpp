@@ -9,13 +9,14 @@ void fill_slots(std::uint32_t particle_count, std::span<const EdgeEnds> edges, s
   const std::vector<std::uint32_t> order = slots_of(particle_count, edges, kLanes);
   slots.count = static_cast<std::uint32_t>(order.size());
   slots.edge_count = static_cast<std::uint32_t>(edges.size());
-  for (auto& column : slots.particle) column.resize(slots.count);
+  for (auto& column : slots.place) column.resize(slots.count);
   slots.rest_length.resize(slots.count);
   slots.empty_place = static_cast<std::uint32_t>(padded(particle_count));
   for (std::size_t s = 0; s < order.size(); ++s) {
     const bool empty = order[s] == kEmptySlot;
-    slots.particle[0][s] = empty ? slots.empty_place : edges[order[s]][0];
-    slots.particle[1][s] = empty ? slots.empty_place + 1 : edges[order[s]][1];
+    for (std::uint32_t k : {0u, 1u}) {
+      slots.place[k][s] = Vec4Place::of(empty ? slots.empty_place + k : edges[order[s]][k]);
+    }
     slots.rest_length[s] = empty ? 1.0f : lengths[order[s]];
   }
 }

@@ -6,6 +6,7 @@
 
 #include "components/column.h"
 #include "components/edge_order.h"
+#include "components/vec4.h"
 
 namespace pleat {
 
@@ -14,11 +15,12 @@ namespace pleat {
 /// where the inverse mass is 0, so that lanes need no mask.
 struct EdgeSlots {
   std::uint32_t count = 0, edge_count = 0, empty_place = 0;
-  Column<std::uint32_t> particle[2];
-  Column<float> rest_length;  // m
+  Column<Vec4Place> place[2];  // of their ends in Vec4Columns
+  Column<float> rest_length;   // m
 
   explicit EdgeSlots(std::pmr::memory_resource* m)
-      : particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m)}, rest_length(m) {}
+      : place{Column<Vec4Place>(m), Column<Vec4Place>(m)}, rest_length(m) {}
+  std::uint32_t particle(std::size_t end, std::uint32_t slot) const { return place[end][slot].index(); }
 };
 
 /// Gives edges, in the order in which they are to be solved and so long at rest, their slots. Throws std::bad_alloc.

@@ -48,7 +48,15 @@ PLEAT_KERNEL std::uint8_t bits(const LaneMask& mask) {
   return static_cast<std::uint8_t>(sum);
 #endif
 }
-PLEAT_KERNEL bool any(const LaneMask& mask) { return bits(mask) != 0; }
+PLEAT_KERNEL bool any(const LaneMask& mask) {
+#ifdef __SSE__
+  Four halves[2];
+  std::memcpy(halves, &mask, sizeof halves);
+  return (__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1])) != 0;
+#else
+  return bits(mask) != 0;
+#endif
+}
 /// How many lanes of a mask are set.
 PLEAT_KERNEL std::uint32_t count(const LaneMask& mask) { return static_cast<std::uint32_t>(std::popcount(bits(mask))); }
 /// The same of one, so that a kernel's source can be for both.
@@ -147,6 +155,10 @@ using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_al
 
 /// By value, not by memcpy: after that compilers go through the stack for a single number of the four.
 PLEAT_KERNEL Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
+/// Two beside each other.
+PLEAT_KERNEL Lanes load_pair(const Vec4& low, const Vec4& high) {
+  return __builtin_shufflevector(load_four(low), load_four(high), 0, 1, 2, 3, 4, 5, 6, 7);
+}
 PLEAT_KERNEL void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
 
 /// Eight vectors, and what each carries besides, each with its components beside each other.
@@ -173,9 +185,7 @@ struct Vec4Lanes {
 /// As pack left them.
 PLEAT_KERNEL Vec4Lanes load(const Vec4* from) {
   Lanes pairs[4], places[4];
-  for (std::size_t k = 0; k < 4; ++k) {
-    pairs[k] = __builtin_shufflevector(load_four(from[k]), load_four(from[k + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
-  }
+  for (std::size_t k = 0; k < 4; ++k) pairs[k] = load_pair(from[k], from[k + 4]);
   transpose(pairs, places);
   return {{places[0], places[1], places[2]}, places[3]};
 }
@@ -200,13 +210,12 @@ PLEAT_KERNEL void pack_state(ConstVec3View position, const float* inverse_mass, 
   pack(force, nullptr, count, packed.force.data());
 }
 
-/// from[index[0]], from[index[1]], ...: a load for each, where three columns need three.
-PLEAT_KERNEL Vec4Lanes gather(const Vec4* from, const std::uint32_t* index) {
+/// from[index[0]], from[index[1]], ...: a load for each, where three columns need three. Index: std::uint32_t, or
+/// Vec4Place.
+template <class Index>
+PLEAT_KERNEL Vec4Lanes gather(const Vec4* from, const Index* index) {
   Lanes pairs[4], places[4];
-  for (std::size_t k = 0; k < 4; ++k) {
-    pairs[k] =
-        __builtin_shufflevector(load_four(from[index[k]]), load_four(from[index[k + 4]]), 0, 1, 2, 3, 4, 5, 6, 7);
-  }
+  for (std::size_t k = 0; k < 4; ++k) pairs[k] = load_pair(at(from, index[k]), at(from, index[k + 4]));
   transpose(pairs, places);
   return {{places[0], places[1], places[2]}, places[3]};
 }
@@ -232,10 +241,11 @@ PLEAT_KERNEL MotionLanes gather(const Motion* from, const std::uint32_t* index) 
 }
 
 /// to[index[k]] = lane k, one after the other.
-PLEAT_KERNEL void scatter(const Vec3Lanes& lanes, const Lanes& w, const std::uint32_t* index, Vec4* to) {
+template <class Index>
+PLEAT_KERNEL void scatter(const Vec3Lanes& lanes, const Lanes& w, const Index* index, Vec4* to) {
   Four each[kLanes];
   split(lanes, w, each);
-  for (std::size_t k = 0; k < kLanes; ++k) store(each[k], to[index[k]]);
+  for (std::size_t k = 0; k < kLanes; ++k) store(each[k], at(to, index[k]));
 }
 /// to[index[k]] += lane k, one after the other, for the first `count` lanes.
 PLEAT_KERNEL void scatter_add(const Vec3Lanes& lanes, const std::uint32_t* index, std::uint32_t count, Vec4* to) {

@@ -11,7 +11,7 @@ namespace pleat {
 
 /// What a pass goes through. In slots; see edge_slots.h, edge_ways.h.
 struct EdgeColumns {
-  const std::uint32_t* particle[2];
+  const Vec4Place* place[2];
   const float* rest_length;  // m
   ConstVec3View way;         // m
   Vec4* packed;              // of particles and two places for the ends of empty slots: m and 1/kg
@@ -29,11 +29,11 @@ struct OneEdge {
   PLEAT_KERNEL float rest_length() const { return in.rest_length[slot]; }
   PLEAT_KERNEL Vec3 way() const { return in.way[slot]; }
   PLEAT_KERNEL End end(std::size_t k) const {
-    const Vec4& at = in.packed[in.particle[k][slot]];
-    return {{at.x, at.y, at.z}, at.w};
+    const Vec4& end = at(in.packed, in.place[k][slot]);
+    return {vector_of(end), end.w};
   }
   PLEAT_KERNEL void put(std::size_t k, const Vec3& vector, float w) const {
-    in.packed[in.particle[k][slot]] = {vector.x, vector.y, vector.z, w};
+    at(in.packed, in.place[k][slot]) = {vector.x, vector.y, vector.z, w};
   }
 };
 
@@ -44,9 +44,9 @@ struct EightEdges {
 
   PLEAT_KERNEL Lanes rest_length() const { return load(in.rest_length + slot); }
   PLEAT_KERNEL Vec3Lanes way() const { return load(in.way, slot); }
-  PLEAT_KERNEL Vec4Lanes end(std::size_t k) const { return gather(in.packed, in.particle[k] + slot); }
+  PLEAT_KERNEL Vec4Lanes end(std::size_t k) const { return gather(in.packed, in.place[k] + slot); }
   PLEAT_KERNEL void put(std::size_t k, const Vec3Lanes& vector, const Lanes& w) const {
-    scatter(vector, w, in.particle[k] + slot, in.packed);
+    scatter(vector, w, in.place[k] + slot, in.packed);
   }
 };
 
@@ -58,11 +58,10 @@ PLEAT_KERNEL void for_each_edge(const EdgeSlots& slots, ConstVec3View way, Colum
   constexpr std::uint32_t kMostSlotsPerEdge = 2;
   const std::uint32_t empty = slots.empty_place;
   packed[empty] = {0.0f, 0.0f, 0.0f, 0.0f}, packed[empty + 1] = {1.0f, 0.0f, 0.0f, 0.0f};
-  const EdgeColumns in{
-      {slots.particle[0].data(), slots.particle[1].data()}, slots.rest_length.data(), way, packed.data()};
+  const EdgeColumns in{{slots.place[0].data(), slots.place[1].data()}, slots.rest_length.data(), way, packed.data()};
   if (set == VectorSet::kBaseline || slots.count > kMostSlotsPerEdge * slots.edge_count) {
     for (std::uint32_t s = 0; s < slots.count; ++s) {
-      if (in.particle[0][s] != empty) solve(OneEdge{in, s});
+      if (slots.particle(0, s) != empty) solve(OneEdge{in, s});
     }
   } else {
     for (std::uint32_t s = 0; s < slots.count; s += kLanes) solve(EightEdges{in, s});

@@ -7,8 +7,8 @@ namespace {
 
 PLEAT_KERNEL void find_ways(const Vec4* place, const EdgeSlots& slots, const Vec3View& way) {
   for (std::uint32_t s = 0; s < slots.count; s += kLanes) {
-    const Vec4Lanes from = gather(place, slots.particle[0].data() + s);
-    const Vec4Lanes to = gather(place, slots.particle[1].data() + s);
+    const Vec4Lanes from = gather(place, slots.place[0].data() + s);
+    const Vec4Lanes to = gather(place, slots.place[1].data() + s);
     store(to.vector - from.vector, way, s);
   }
 }

@@ -20,7 +20,9 @@ Garment square(std::uint32_t side, std::span<const std::uint32_t> pins) {
 
 std::set<std::uint32_t> ends_of(const EdgeSlots& slots) {
   std::set<std::uint32_t> ends;
-  for (const auto& column : slots.particle) ends.insert(column.begin(), column.end());
+  for (const auto& column : slots.place) {
+    for (const Vec4Place place : column) ends.insert(place.index());
+  }
   std::erase_if(ends, [&](std::uint32_t i) { return i >= slots.empty_place; });
   return ends;
 }
@@ -87,7 +89,7 @@ TEST(CoarseLevels, EdgesAreWaysAlongEdgesNeverShorterThanStraight) {
   const ConstVec3View x = g.rest_position.view();
   for (const CoarseLevel& level : g.coarse) {
     for (std::uint32_t s = 0; s < level.slots.count; ++s) {
-      const std::uint32_t i = level.slots.particle[0][s], j = level.slots.particle[1][s];
+      const std::uint32_t i = level.slots.particle(0, s), j = level.slots.particle(1, s);
       if (i == g.slots.empty_place) continue;
       const float straight = length(x[i] - x[j]);
       EXPECT_GE(level.slots.rest_length[s], straight * 0.9999f);

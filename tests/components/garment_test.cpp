@@ -73,7 +73,7 @@ TEST(Garment, EveryEdgeHasASlotButThoseBetweenPins) {
   const Garment g = build_garment({mesh.positions, mesh.triangles, {}, pins, {}}, std::pmr::new_delete_resource());
   std::set<std::array<std::uint32_t, 2>> slotted;
   for (std::uint32_t s = 0; s < g.slots.count; ++s) {
-    const std::uint32_t i = g.slots.particle[0][s], j = g.slots.particle[1][s];
+    const std::uint32_t i = g.slots.particle(0, s), j = g.slots.particle(1, s);
     if (i == g.slots.empty_place) continue;
     EXPECT_TRUE(slotted.insert({i, j}).second);
     EXPECT_FLOAT_EQ(g.slots.rest_length[s], length(mesh.positions[j] - mesh.positions[i]));
