@@ -16,7 +16,7 @@ TEST(EdgeWays, LeadFromEndToEnd) {
     EdgeWays{&g, sheet.previous, &sheet.packed, sheet.edge_way.view()}.run(set);
     std::uint32_t edges = 0;
     for (std::uint32_t s = 0; s < g.slots.count; ++s) {
-      const std::uint32_t i = g.slots.particle[0][s], j = g.slots.particle[1][s];
+      const std::uint32_t i = g.slots.particle(0, s), j = g.slots.particle(1, s);
       if (i == g.slots.empty_place) continue;
       EXPECT_EQ(sheet.edge_way.view()[s], sheet.previous[j] - sheet.previous[i]);
       ++edges;
@@ -33,7 +33,7 @@ TEST(EdgeWays, ThoseOfCoarseLevelsFollow) {
   ASSERT_GE(sheet.garment.coarse.size(), 1u);
   for (const CoarseLevel& level : sheet.garment.coarse) {
     for (std::uint32_t s = 0; s < level.slots.count; ++s) {
-      const std::uint32_t i = level.slots.particle[0][s], j = level.slots.particle[1][s];
+      const std::uint32_t i = level.slots.particle(0, s), j = level.slots.particle(1, s);
       if (i == level.slots.empty_place) continue;
       EXPECT_EQ(way[level.way_begin + s], sheet.previous[j] - sheet.previous[i]);
     }
