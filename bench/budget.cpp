@@ -133,6 +133,7 @@ void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progre
   budget.cloth = scene.cloth_info(0);
   budget.folds_given_up = scene.stats().folds_given_up;
   budget.substeps_given_up = scene.stats().substeps_given_up;
+  budget.invisible = scene.stats().invisible;
   quality.measure_rest(scene);
   budget.quality = quality.result();
 }
@@ -161,28 +162,49 @@ double median_ratio(const std::vector<std::vector<double>>& ours, const std::vec
 }  // namespace
 
 std::string stage_group(const std::string& system) {
-  static const std::map<std::string, std::string> kGroups = {
-      {"elastic_force", "forces"},         {"hinge_bending", "forces"},
-      {"elastic_projection", "forces"},    {"implicit_integration", "integration"},
-      {"edge_damping", "forces"},          {"gravity", "forces"},
-      {"air_damping", "forces"},           {"air_drag", "forces"},
-      {"inner_friction", "forces"},        {"tether_constraint", "stretch"},
-      {"pin_motion", "integration"},       {"euler_integration", "integration"},
-      {"finite_guard", "integration"},     {"runge_kutta_integration", "integration"},
-      {"velocity_update", "integration"},  {"stretch_constraint", "stretch"},
-      {"collider_motion", "collision"},    {"capsule_detection", "collision"},
-      {"self_candidates", "self"},         {"self_detection", "self"},
-      {"layer_candidates", "layers"},      {"layer_detection", "layers"},
-      {"mesh_detection", "collision"},     {"collision_response", "collision"},
-      {"contact_friction", "collision"},   {"contact_acceleration", "collision"},
-      {"contact_velocity", "collision"},   {"collision_last_word", "collision"},
-      {"surface_footprint", "clearance"},  {"surface_capsules", "clearance"},
-      {"surface_clearance", "clearance"},  {"particle_normals", "normals"},
-      {"mesh_candidates", "collision"},    {"mesh_clearance", "clearance"},
-      {"fold_sides", "edge_length"},       {"stretch_after_friction", "stretch"},
-      {"capsule_candidates", "collision"}, {"rounding_hold", "integration"},
-      {"contact_stick", "collision"},      {"edge_ways", "stretch"},
-      {"body_refit", "collision"}};
+  static const std::map<std::string, std::string> kGroups = {{"elastic_force", "forces"},
+                                                             {"hinge_bending", "forces"},
+                                                             {"elastic_projection", "forces"},
+                                                             {"implicit_integration", "integration"},
+                                                             {"edge_damping", "forces"},
+                                                             {"gravity", "forces"},
+                                                             {"air_damping", "forces"},
+                                                             {"air_drag", "forces"},
+                                                             {"inner_friction", "forces"},
+                                                             {"tether_constraint", "stretch"},
+                                                             {"pin_motion", "integration"},
+                                                             {"euler_integration", "integration"},
+                                                             {"finite_guard", "integration"},
+                                                             {"runge_kutta_integration", "integration"},
+                                                             {"velocity_update", "integration"},
+                                                             {"stretch_constraint", "stretch"},
+                                                             {"collider_motion", "collision"},
+                                                             {"capsule_detection", "collision"},
+                                                             {"self_candidates", "self"},
+                                                             {"self_detection", "self"},
+                                                             {"layer_candidates", "layers"},
+                                                             {"layer_detection", "layers"},
+                                                             {"mesh_detection", "collision"},
+                                                             {"collision_response", "collision"},
+                                                             {"contact_friction", "collision"},
+                                                             {"contact_acceleration", "collision"},
+                                                             {"contact_velocity", "collision"},
+                                                             {"collision_last_word", "collision"},
+                                                             {"surface_footprint", "clearance"},
+                                                             {"surface_capsules", "clearance"},
+                                                             {"surface_clearance", "clearance"},
+                                                             {"particle_normals", "normals"},
+                                                             {"mesh_candidates", "collision"},
+                                                             {"mesh_clearance", "clearance"},
+                                                             {"fold_sides", "edge_length"},
+                                                             {"stretch_after_friction", "stretch"},
+                                                             {"capsule_candidates", "collision"},
+                                                             {"rounding_hold", "integration"},
+                                                             {"contact_stick", "collision"},
+                                                             {"edge_ways", "stretch"},
+                                                             {"slow_force", "forces"},
+                                                             {"coarse_stretch", "stretch"},
+                                                             {"body_refit", "collision"}};
   const auto found = kGroups.find(system);
   return found == kGroups.end() ? system : found->second;
 }

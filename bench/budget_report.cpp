@@ -134,6 +134,9 @@ void print_budget(const demo::SceneDef& def, const Budget& budget) {
                 static_cast<unsigned long long>(budget.folds_given_up),
                 static_cast<unsigned long long>(budget.substeps_given_up));
   }
+  if (budget.invisible > 0) {
+    std::printf("out of sight                 %llu cloths\n", static_cast<unsigned long long>(budget.invisible));
+  }
   print_beside_paper(budget);
   print_quality(budget.quality);
   print_surface(budget);
@@ -162,6 +165,7 @@ nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& d
     json["folds_given_up"] = budget.folds_given_up;
     json["substeps_given_up"] = budget.substeps_given_up;
   }
+  if (budget.invisible > 0) json["invisible"] = budget.invisible;
   json["bytes_per_cloth"] = budget.cloth.bytes;
   json["quality"] = to_json(budget.quality);
   json["surface"] = to_json(budget.surface);

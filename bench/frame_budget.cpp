@@ -54,9 +54,13 @@ int run_program(int argc, char** argv) {
       ->check(CLI::Range(1u, PLEAT_MAX_WORKERS))
       ->capture_default_str();
   double tick_budget = 0.0;
+  std::optional<size_t> seen;
   app.add_option("--budget", tick_budget, "level of detail: what a tick of all cloths may take; the first is nearest")
       ->type_name("MS")
       ->check(CLI::Range(0.001, 1e6));
+  app.add_option("--seen", seen, "copies of a crowd that are in sight, the first ones")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
   std::string peer;
   app.add_option("--peer", peer, "in turn with Bullet's soft body, `bullet`, or `bullet:N` for N iterations, not 4")
       ->check(CLI::Validator([](std::string& text) { return parse_peer(text) ? "" : "not bullet or bullet:1..1000"; },
@@ -68,6 +72,7 @@ int run_program(int argc, char** argv) {
   pleat::demo::SceneDef def = pleat::demo::load_scene(api, request);
   def.workers = threads;
   def.budget = tick_budget;
+  if (seen) def.seen = *seen;
   json.open();
   const pleat::bench::Budget budget = pleat::bench::measure_budget(api, def, repeat, parse_peer(peer));
   std::vector<pleat::bench::Start> from_starts;

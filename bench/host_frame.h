@@ -1,6 +1,7 @@
 // What a host does in a frame, to be timed.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "demo/scenes/drawn_surface.h"
@@ -8,10 +9,11 @@
 
 namespace pleat::bench {
 
-/// A buffer for what each cloth of the scene draws.
+/// A buffer for what each cloth in sight draws.
 inline std::vector<demo::DrawnSurface> make_surfaces(const demo::Scene& scene) {
   std::vector<demo::DrawnSurface> surfaces;
-  for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
+  const size_t seen = std::min(scene.def().seen, scene.cloths().size());
+  for (size_t k = 0; k < seen; ++k) surfaces.push_back(demo::make_surface(scene, k));
   return surfaces;
 }
 

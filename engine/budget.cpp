@@ -18,6 +18,7 @@ Work work_of(const ClothRecord& cloth, std::uint32_t substeps) {
   const Garment& g = cloth.garment();
   const TessellationPattern* pattern = cloth.pattern();
   if (cloth.substeps_taken == 0) return {};  // asleep, or new
+  if (!cloth.visible) return detail_work(g.particle_count, cloth.substeps_taken, 0, 0, false);
   return detail_work(g.particle_count, substeps, has_folds_to_give(cloth) ? g.edge_count : 0,
                      pattern != nullptr ? pattern->vertex_count : 0, cloth.settings.substeps == 0);
 }
@@ -60,7 +61,7 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
 
 void fade_detail(World& world, ClothRecord& cloth, float dt) {
   const float substeps = gives_up_substeps(cloth) ? 1.0f / static_cast<float>(cloth.given_up) : 1.0f;
-  cloth.substep_share = faded(cloth.substep_share, substeps, dt * kSubstepsFade);
+  cloth.substep_share = cloth.visible ? faded(cloth.substep_share, substeps, dt * kSubstepsFade) : kInvisibleSubsteps;
   const float folds = gives_up_folds(cloth) ? 0.0f : 1.0f;
   if (cloth.fold_share == folds) return;
   cloth.fold_share = faded(cloth.fold_share, folds, dt * kFoldsFade);

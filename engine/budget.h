@@ -18,4 +18,7 @@ inline bool has_folds_to_give(const ClothRecord& cloth) {
 inline bool gives_up_folds(const ClothRecord& cloth) { return cloth.given_up > 0 && has_folds_to_give(cloth); }
 inline bool gives_up_substeps(const ClothRecord& cloth) { return cloth.given_up > 1 && cloth.settings.substeps == 0; }
 
+/// Of its substeps, what a cloth takes that nobody sees.
+inline constexpr float kInvisibleSubsteps = 1.0f / 6;
+
 }  // namespace pleat

@@ -52,6 +52,7 @@ pleat_result cloth_destroy(pleat_world*, pleat_cloth);
 pleat_result cloth_get(const pleat_world*, pleat_cloth, pleat_cloth_settings*);
 pleat_result cloth_set(pleat_world*, pleat_cloth, const pleat_cloth_settings*);
 pleat_result cloth_set_importance(pleat_world*, pleat_cloth, float);
+pleat_result cloth_set_visible(pleat_world*, pleat_cloth, uint32_t);
 pleat_result cloth_info(const pleat_world*, pleat_cloth, pleat_cloth_info*);
 pleat_result cloth_move_pins(pleat_world*, pleat_cloth, const float*, uint32_t, uint32_t);
 pleat_result cloth_read_particles(const pleat_world*, pleat_cloth, float*, float*, uint32_t);

@@ -170,6 +170,17 @@ pleat_result cloth_set_importance(pleat_world* handle, pleat_cloth cloth, float 
   });
 }
 
+pleat_result cloth_set_visible(pleat_world* handle, pleat_cloth cloth, uint32_t visible) {
+  return guarded(as_world(handle), "cloth_set_visible", [&] {
+    World& world = need_world(handle);
+    ClothRecord& record = need_cloth(world, cloth);
+    if (record.visible == (visible != 0)) return;
+    record.visible = visible != 0;
+    replan(world, record);
+    if (record.visible) draw(world, record);
+  });
+}
+
 pleat_result cloth_info(const pleat_world* handle, pleat_cloth cloth, pleat_cloth_info* info) {
   return guarded(as_world(handle), "cloth_info", [&] {
     const World& world = need_world(handle);

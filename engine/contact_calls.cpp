@@ -13,11 +13,11 @@ namespace {
 
 #ifdef PLEAT_WITH_COLLISION
 void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {
-  const bool drawn = cloth.pattern() != nullptr;
+  const bool drawn = cloth.pattern() != nullptr && cloth.visible;
   const Penetration penetration{
       .garment = &cloth.garment(),
       .position = world.particles.position.view().from(cloth.particle_begin),
-      .pattern = cloth.pattern(),
+      .pattern = drawn ? cloth.pattern() : nullptr,
       .drawn_position = drawn ? world.drawn.position.view().from(cloth.drawn_begin) : ConstVec3View{},
       .capsules = &world.capsules,
       .planes = world.planes.data(),

@@ -92,6 +92,7 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
       const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
       if (what & PLEAT_DEBUG_COARSE_EDGES) draw_edges(cloth.garment(), x, lines);
 #ifdef PLEAT_WITH_SMOOTHING
+      if (!cloth.visible) continue;
       const std::uint32_t mode = cloth.settings.surface;
       if (what & PLEAT_DEBUG_BASE_NORMALS) draw_base_normals(world, cloth, lines);
       if ((what & PLEAT_DEBUG_FORCE_NORMALS) && mode != PLEAT_SURFACE_FLAT) {

@@ -93,6 +93,10 @@ class DrawnVertices {
   const float* handedness_ = nullptr;
 };
 
+void need_visible(const ClothRecord& cloth) {
+  if (!cloth.visible) refuse("the cloth is not visible: its surface is not drawn, see cloth_set_visible");
+}
+
 template <class Index>
 void read_indices(const ClothRecord& cloth, Index* indices, std::uint32_t capacity) {
   need_pointer("indices", indices);
@@ -119,6 +123,7 @@ pleat_result cloth_read_vertices(const pleat_world* handle, pleat_cloth cloth, c
   return guarded(as_world(handle), "cloth_read_vertices", [&] {
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
+    need_visible(record);
     const pleat_vertex_target target = read_def("target", given, default_target());
     need_pointer("target.data", target.data);
     const DrawnVertices drawn(world, record);
@@ -186,10 +191,12 @@ pleat_result cloth_read_vertices(const pleat_world* handle, pleat_cloth cloth, c
 pleat_result cloth_bounds(const pleat_world* handle, pleat_cloth cloth, float low[3], float high[3]) {
   return guarded(as_world(handle), "cloth_bounds", [&] {
     const World& world = need_world(handle);
-    const DrawnVertices drawn(world, need_cloth(world, cloth));
+    const ClothRecord& record = need_cloth(world, cloth);
     need_pointer("low", low);
     need_pointer("high", high);
-    const Box box = drawn.bounds();
+    const ConstVec3View particles = world.particles.position.view().from(record.particle_begin);
+    const Box box =
+        record.visible ? DrawnVertices(world, record).bounds() : box_of(particles, record.garment().particle_count);
     std::memcpy(low, &box.low, sizeof box.low);
     std::memcpy(high, &box.high, sizeof box.high);
   });
@@ -219,6 +226,7 @@ pleat_result cloth_suggest_level(const pleat_world* handle, pleat_cloth cloth, f
   return guarded(as_world(handle), "cloth_suggest_level", [&] {
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
+    need_visible(record);
     need_range("pixels_per_metre", pixels_per_metre, 1e-6, 1e9);
     need_pointer("level", level);
     float bend = 0.0f;

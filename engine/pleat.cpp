@@ -59,6 +59,7 @@ constexpr pleat_api kApi = {
     .cloth_bounds = call::cloth_bounds,
     .world_keep_budget = call::world_keep_budget,
     .cloth_set_importance = call::cloth_set_importance,
+    .cloth_set_visible = call::cloth_set_visible,
 };
 
 }  // namespace

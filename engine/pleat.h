@@ -370,6 +370,7 @@ typedef struct pleat_stats {
   uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
   uint64_t folds_given_up;     /* cloths that do without folds for the budget: see world_keep_budget */
   uint64_t substeps_given_up;  /* cloths that do with a half or a third of their substeps */
+  uint64_t invisible;          /* cloths that nobody sees: see cloth_set_visible */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
@@ -510,6 +511,11 @@ typedef struct pleat_api {
   pleat_result (*world_keep_budget)(pleat_world* world, float budget_ms, float cost_ms);
   /* For the budget: size on screen, say, of any unit, >= 0; 1 until it is set. May be called every frame. */
   pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);
+  /* 0: nobody sees the cloth, as where its character is off the screen. Its surface is not drawn and cannot be read,
+   * its bounds are those of its particles, and it takes a sixth of its substeps, or as many as bodies need in order not
+   * to pass through. 1, as at first: its surface is there again at once, its substeps over two seconds. May be called
+   * every frame. */
+  pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
 } pleat_api;
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)

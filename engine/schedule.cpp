@@ -172,6 +172,10 @@ void refresh(World& world, ClothRecord& cloth) {
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);
 #endif
+  draw(world, cloth);
+}
+
+void draw(World& world, ClothRecord& cloth) {
   ClothTick t(world, world.workers[0], cloth);
   t.t1 = t.t0;  // between ticks bodies are where the last one left them
   run_phase(t, Phase::kFrameEnd);

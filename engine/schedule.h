@@ -5,7 +5,8 @@
 //     frame begin                 cloths whose pins have jumped are carried there
 //   for each cloth:
 //     substep begin               pins and colliders take their places
-//     stage                       forces, then integration; Runge-Kutta repeats it four times, stiff bending up to four;
+//     stage                       forces, then integration; Runge-Kutta repeats it four times, stiff bending up to
+//     four;
 //                                 soft bending is found every third substep and held between
 //     contact                     contact rows at the predicted positions
 //     sweep                       repeated: strain limit and contact converge together
@@ -22,6 +23,8 @@ namespace pleat {
 /// Decides anew which systems `cloth` needs, makes room for the optional columns that they use, and brings its drawn
 /// surface up to date. To be called whenever the cloth, its settings or its place changed. Throws std::bad_alloc.
 void refresh(World& world, ClothRecord& cloth);
+/// Brings its drawn surface alone up to date.
+void draw(World& world, ClothRecord& cloth);
 /// The same decision for all cloths, after the scene's gravity or wind changed. Throws std::bad_alloc.
 void replan(World& world);
 

@@ -20,6 +20,12 @@ namespace pleat {
 #ifdef PLEAT_WITH_SMOOTHING
 namespace {
 
+/// `condition`, where somebody sees the cloth.
+template <const char* (*condition)(const World&, const ClothRecord&)>
+const char* where_seen(const World& w, const ClothRecord& c) {
+  return c.visible ? condition(w, c) : "nobody sees the cloth";
+}
+
 SurfaceMode surface_mode(const pleat_cloth_settings& s) { return static_cast<SurfaceMode>(s.surface); }
 
 const char* with_normals(const World&, const ClothRecord& c) {
@@ -71,7 +77,7 @@ const FoldCurve* fold_curves(const ClothTick& t) {
 }
 
 constexpr Row kRows[] = {
-    {Phase::kFrameEnd, "particle_normals", with_normals,
+    {Phase::kFrameEnd, "particle_normals", where_seen<with_normals>,
      [](ClothTick& t) {
        run(ParticleNormals{.mode = surface_mode(t.settings),
                            .garment = &t.garment,
@@ -80,7 +86,7 @@ constexpr Row kRows[] = {
                            .sum = t.worker.normal_sum.data(),
                            .place = t.worker.packed.position.data()});
      }},
-    {Phase::kFrameEnd, "fold_sides", with_sides,
+    {Phase::kFrameEnd, "fold_sides", where_seen<with_sides>,
      [](ClothTick& t) {
        run(FoldSides{.garment = &t.garment,
                      .position = t.position,
@@ -89,7 +95,7 @@ constexpr Row kRows[] = {
                      .kept = t.frame_dt > 0.0f ? FoldSides::kept_after(t.frame_dt) : 0.0f,
                      .side = t.fold_side});
      }},
-    {Phase::kFrameEnd, "edge_length", with_folds,
+    {Phase::kFrameEnd, "edge_length", where_seen<with_folds>,
      [](ClothTick& t) {
        run(EdgeLength{.mode = surface_mode(t.settings),
                       .garment = &t.garment,
@@ -100,7 +106,7 @@ constexpr Row kRows[] = {
                       .side = t.fold_side,
                       .curves = fold_curves(t)});
      }},
-    {Phase::kFrameEnd, "fold_relaxation", with_fold_relaxation,
+    {Phase::kFrameEnd, "fold_relaxation", where_seen<with_fold_relaxation>,
      [](ClothTick& t) {
        run(FoldRelaxation{.sweeps = t.settings.fold_sweeps,
                           .garment = &t.garment,
@@ -110,11 +116,11 @@ constexpr Row kRows[] = {
                           .fold_height = t.fold_height,
                           .scratch = t.worker.fold_scratch.view()});
      }},
-    {Phase::kFrameEnd, "fold_fade", with_fading,
+    {Phase::kFrameEnd, "fold_fade", where_seen<with_fading>,
      [](ClothTick& t) {
        run(FoldFade{.edge_count = t.garment.edge_count, .share = t.cloth.fold_share, .fold_height = t.fold_height});
      }},
-    {Phase::kFrameEnd, "tessellation", always,
+    {Phase::kFrameEnd, "tessellation", where_seen<always>,
      [](ClothTick& t) {
        run(Tessellation{.mode = surface_mode(t.settings),
                         .garment = &t.garment,
@@ -128,7 +134,7 @@ constexpr Row kRows[] = {
                         .bulge = bulge(t)});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kFrameEnd, "surface_footprint", with_meshes,
+    {Phase::kFrameEnd, "surface_footprint", where_seen<with_meshes>,
      [](ClothTick& t) {
        run(Tessellation{.mode = SurfaceMode::kFlat,
                         .garment = &t.garment,
@@ -138,11 +144,11 @@ constexpr Row kRows[] = {
                         .fold = {},
                         .drawn_position = t.worker.footprint.view()});
      }},
-    {Phase::kFrameEnd, "surface_capsules", with_capsules,
+    {Phase::kFrameEnd, "surface_capsules", where_seen<with_capsules>,
      [](ClothTick& t) {
        move_capsules(t, t.garment.mean_edge_length);  // the surface bulges less than that
      }},
-    {Phase::kFrameEnd, "mesh_clearance", with_meshes,
+    {Phase::kFrameEnd, "mesh_clearance", where_seen<with_meshes>,
      [](ClothTick& t) {
        World& w = t.world;
        run(MeshClearance{.garment = &t.garment,
@@ -157,7 +163,7 @@ constexpr Row kRows[] = {
                          .planes = clearance_planes(t),
                          .drawn_position = t.drawn_position});
      }},
-    {Phase::kFrameEnd, "surface_clearance", with_colliders,
+    {Phase::kFrameEnd, "surface_clearance", where_seen<with_colliders>,
      [](ClothTick& t) {
        World& w = t.world;
        run(SurfaceClearance{.garment = &t.garment,
@@ -174,14 +180,14 @@ constexpr Row kRows[] = {
                             .drawn_position = t.drawn_position});
      }},
 #endif
-    {Phase::kFrameEnd, "drawn_normals", always,
+    {Phase::kFrameEnd, "drawn_normals", where_seen<always>,
      [](ClothTick& t) {
        run(DrawnNormals{.pattern = t.cloth.pattern(),
                         .position = t.drawn_position,
                         .sum = t.worker.normal_sum.data(),
                         .normal = t.drawn_normal});
      }},
-    {Phase::kFrameEnd, "drawn_tangents", with_tangents,
+    {Phase::kFrameEnd, "drawn_tangents", where_seen<with_tangents>,
      [](ClothTick& t) {
        run(DrawnTangents{.garment = &t.garment,
                          .pattern = t.cloth.pattern(),

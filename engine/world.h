@@ -70,6 +70,7 @@ struct ClothRecord {
   std::uint32_t lowered_at = 0;              // substeps with which the stiffness was lowered
   bool said_jump = false;                    // that its pins jumped
   Vec3 pin_velocity;                         // m/s, mean of the last tick
+  bool visible = true;                       // somebody sees it
   float importance = 1.0f;                   // the host's, against other cloths; budget.h
   std::uint32_t given_up = 0;                // steps of detail
   float fold_share = 1.0f;                   // of their height, with which folds are drawn

@@ -131,6 +131,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.fallbacks = world.stats.fallbacks;
     all.sleeping = world.stats.sleeping;
     for (const ClothRecord& cloth : world.clothes) {
+      if (!cloth.visible) ++all.invisible;
       if (gives_up_folds(cloth)) ++all.folds_given_up;
       if (gives_up_substeps(cloth)) ++all.substeps_given_up;
     }

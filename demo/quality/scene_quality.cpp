@@ -82,7 +82,7 @@ void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSur
   if (scene.def().crossings && scene.def().layered) add_crossings_of_layers(scene, surfaces);
   for (size_t k = 0; k < scene.copies(); ++k) {
     scene.read_particles(k, particles_);
-    if (surfaces.empty()) {
+    if (k >= surfaces.size()) {
       meter_.add_cloth(mesh_, {particles_, {}, {}}, bodies_of(scene, k));
       continue;
     }

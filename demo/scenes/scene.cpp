@@ -107,6 +107,7 @@ void Scene::create_copies() {
     cloth.positions = moved_.data();
     check(api_.cloth_create(world_, &cloth, &cloths_.emplace_back()), "cloth");
     check(api_.cloth_set_importance(world_, cloths_.back(), 1.0f / float(cloths_.size())), "importance");
+    if (cloths_.size() > def().seen) check(api_.cloth_set_visible(world_, cloths_.back(), 0), "visible");
     for (size_t part = 0; part < body().touching; ++part) {
       pleat_collider_def part_def;
       api_.collider_def_init(&part_def, sizeof part_def);

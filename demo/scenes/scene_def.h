@@ -37,12 +37,13 @@ struct FixedBody {
 
 /// Everything a scene is made of, read and checked: what a Scene is started from. Metres, seconds, world space.
 struct SceneDef {
-  std::string name;       ///< as the user asked for it: `drape_sphere:32`
-  double rate = 60.0;     ///< frames a second
-  uint32_t frames = 300;  ///< a run's length
-  uint32_t workers = 1;   ///< threads that run cloths
-  double budget = 0.0;    ///< ms that a tick may take, with detail given up from the last copy on; 0: all detail
-  double settle = 0.0;    ///< s of `motion` before frame 0: it begins at -settle
+  std::string name;        ///< as the user asked for it: `drape_sphere:32`
+  double rate = 60.0;      ///< frames a second
+  uint32_t frames = 300;   ///< a run's length
+  uint32_t workers = 1;    ///< threads that run cloths
+  double budget = 0.0;     ///< ms that a tick may take, with detail given up from the last copy on; 0: all detail
+  size_t seen = SIZE_MAX;  ///< copies that are in sight, the first ones
+  double settle = 0.0;     ///< s of `motion` before frame 0: it begins at -settle
   Eigen::Vector3d gravity{0.0, -9.81, 0.0};
   Eigen::Vector3d wind{0.0, 0.0, 0.0};
   double gust = 0.0, gust_frequency = 2.0;  ///< m/s, Hz: as in pleat_world_def
