@@ -58,14 +58,16 @@ std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1)
 
 /// Passes of strain limit and contact in each substep: as many more for each kSweepReach of the depth or, where coarse
 /// levels carry pulls, for each doubling of it. What carries them is all passes of a tick: where there are more
-/// substeps than the cloth's motion wants, because it is stiff, each needs fewer.
+/// substeps than the cloth's motion wants, because it is stiff, each needs fewer; where there are not as many, because
+/// detail is given up, half of the passes that are missing are made up for.
 std::uint32_t sweeps_for(const ClothTick& t) {
   const std::uint32_t reaches = t.garment.depth / kSweepReach;
   const bool has_levels = !t.garment.coarse.empty();
   const std::uint32_t more = has_levels ? static_cast<std::uint32_t>(std::bit_width(reaches)) : reaches;
   const std::uint32_t deep = t.settings.sweeps * (1 + more);
-  const std::uint32_t wanted = std::min(t.cloth.substeps_wanted, t.substeps);
-  const std::uint32_t least = has_levels ? kExactSweeps + 1 : 1;  // one goes over the coarse levels
+  const std::uint32_t missing = t.cloth.substeps_wanted - std::min(t.cloth.substeps_wanted, t.substeps);
+  const std::uint32_t wanted = t.cloth.substeps_wanted - missing / 2;  // substeps with as many passes as is usual
+  const std::uint32_t least = has_levels ? kExactSweeps + 1 : 1;       // one goes over the coarse levels
   return std::max({t.settings.sweeps, least, quotient_up(deep * wanted, t.substeps)});
 }
 

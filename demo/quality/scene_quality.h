@@ -17,8 +17,8 @@ class SceneQuality {
   /// Takes the mesh and the bodies that never move from `scene`.
   explicit SceneQuality(const Scene& scene);
 
-  /// Looks at the frame that was just stepped; `surfaces` are its drawn cloths; none where only
-  /// particles are drawn.
+  /// Looks at the frame that was just stepped; `surfaces` are its drawn cloths, the first ones of all; none where
+  /// only particles are drawn.
   void add_frame(const RunningScene& scene, std::span<const DrawnSurface> surfaces);
   /// Holds the pose for 5 s and then watches the particles for another second. Nothing where no body moves.
   void measure_rest(RunningScene& scene);

@@ -342,6 +342,16 @@ TEST_F(Cloth, ImportanceAndBudgetAreChecked) {
   EXPECT_EQ(api().world_keep_budget(world, 1.0f, 5.0f), pleat_result{PLEAT_OK});
 }
 
+TEST_F(Cloth, VisibilityIsChecked) {
+  const pleat_cloth gone{cloth.index, cloth.generation + 1};
+  expect_refused(PLEAT_ERROR_HANDLE, "cloth", [&] { return api().cloth_set_visible(world, gone, 0); });
+  EXPECT_EQ(api().cloth_set_visible(nullptr, cloth, 0), pleat_result{PLEAT_ERROR_ARGUMENT});
+  ASSERT_EQ(api().cloth_set_visible(world, cloth, 0), pleat_result{PLEAT_OK});
+  uint32_t level = 0;
+  EXPECT_EQ(api().cloth_suggest_level(world, cloth, 100.0f, &level), pleat_result{PLEAT_ERROR_ARGUMENT});
+  EXPECT_NE(services.log.find("not visible"), std::string::npos) << services.log;
+}
+
 TEST_F(Cloth, SuggestedLevelIsChecked) {
   std::uint32_t level = 99;
   for (const float value : {0.0f, -1.0f, kNan, kInfinity}) {

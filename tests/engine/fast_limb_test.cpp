@@ -38,11 +38,13 @@ struct MeshLimb {
 enum class Limb { kCapsule, kMesh };
 
 /// A sheet that hangs from two corners, and a limb that goes up through it at 20 m/s and stops 12 cm above.
-float cloth_above_limb(Limb kind, std::uint32_t substeps, std::uint64_t& fast_bodies, std::uint32_t& taken) {
+float cloth_above_limb(Limb kind, std::uint32_t substeps, std::uint64_t& fast_bodies, std::uint32_t& taken,
+                       bool visible = true) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
   s.substeps = substeps;
   const pleat_cloth cloth = scene.cloth(scene.sheet(8), s);
+  must(call::cloth_set_visible(scene, cloth, visible ? 1 : 0));
   pleat_collider_def def;
   must(call::collider_def_init(&def, sizeof def));
   float y = -0.55f;
@@ -88,6 +90,16 @@ TEST(FastLimb, AtTwentyMetresASecondTakesTheClothAlong) {
     // A mesh is seen from 15 mm on, not from half a limb: with the cloth thrown as fast again, at up to 28 m/s in both
     // ticks after, that is over the most.
     EXPECT_EQ(fast_bodies, kind == Limb::kMesh ? 2u : 0u);
+  }
+}
+
+TEST(FastLimb, TakesTheClothAlongWhereNobodySeesIt) {
+  for (const Limb kind : {Limb::kCapsule, Limb::kMesh}) {
+    SCOPED_TRACE(kind == Limb::kMesh ? "mesh" : "capsule");
+    std::uint64_t fast_bodies = 0;
+    std::uint32_t taken = 0;
+    EXPECT_GT(cloth_above_limb(kind, 0, fast_bodies, taken, false), 0.0f);
+    EXPECT_GT(taken, 12u) << "more than a sixth";
   }
 }
 
