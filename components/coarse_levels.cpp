@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/garment.h"
+#include "components/walk.h"
 
 namespace pleat {
 namespace {
@@ -21,10 +22,12 @@ struct Link {
 /// The particles of a level, and which of them are joined.
 struct Net {
   std::vector<std::uint32_t> particles;
+  std::vector<EdgeEnds> edges;
   std::vector<std::vector<Link>> links;  // of every particle of the garment
 
   explicit Net(std::uint32_t count) : links(count) {}
   void join(std::uint32_t i, std::uint32_t j, float length) {
+    edges.push_back({i, j});
     links[i].push_back({j, length}), links[j].push_back({i, length});
   }
 };
@@ -38,32 +41,16 @@ Net finest(const Garment& g) {
   return net;
 }
 
-/// A level's particles breadth first, and how many links the last that is joined to the start is away.
-struct Order {
-  std::vector<std::uint32_t> particles;
-  std::uint32_t depth = 0;
-
-  Order(const Net& net, std::span<const std::uint32_t> from) : particles(from.begin(), from.end()) {
-    std::vector<std::uint32_t> hops(net.links.size(), kNone);
-    for (const std::uint32_t i : from) hops[i] = 0;
-    for (std::size_t head = 0; head < particles.size(); ++head) {
-      const std::uint32_t i = particles[head];
-      depth = hops[i];
-      for (const Link& link : net.links[i]) {
-        if (hops[link.to] == kNone) hops[link.to] = hops[i] + 1, particles.push_back(link.to);
-      }
-    }
-    std::ranges::copy_if(net.particles, std::back_inserter(particles), [&](auto i) { return hops[i] == kNone; });
-  }
-};
-
-/// Which particles make the next level: all that are no neighbours of one before.
-std::vector<bool> choose_apart(const Net& net, const Order& order) {
+/// Which particles make the next level: all that are no neighbours of one before, where the walk comes and then
+/// elsewhere.
+std::vector<bool> choose_apart(const Net& net, const Walk& walk) {
   std::vector<bool> chosen(net.links.size()), beside(net.links.size());
-  for (const std::uint32_t i : order.particles) {
-    if (beside[i]) continue;
-    chosen[i] = true;
-    for (const Link& link : net.links[i]) beside[link.to] = true;
+  for (const auto* particles : {&walk.order, &net.particles}) {
+    for (const std::uint32_t i : *particles) {
+      if (beside[i]) continue;
+      chosen[i] = true;
+      for (const Link& link : net.links[i]) beside[link.to] = true;
+    }
   }
   return chosen;
 }
@@ -144,9 +131,9 @@ void add_coarse_levels(Garment& g) {
   std::vector<std::uint32_t> roots(g.pins.begin(), g.pins.end());
   Net net = finest(g);
   for (;;) {
-    const Order order(net, roots);
-    if (order.depth < kCoarseDepth) break;
-    const std::vector<bool> chosen = choose_apart(net, order);
+    const Walk walk(roots, g.particle_count, net.edges);
+    if (walk.depth() < kCoarseDepth) break;
+    const std::vector<bool> chosen = choose_apart(net, walk);
     CoarseLevel level(g.coarse.get_allocator().resource());
     add_children(g, net, chosen, level);
     net = coarser(net, chosen);

@@ -6,35 +6,14 @@
 #include <queue>
 #include <set>
 
+#include "components/walk.h"
+
 namespace pleat {
 namespace {
 
-constexpr std::uint32_t kFar = 0xffffffffu;
 /// Edges across, between particles as far as each other, come with those that lead on from the next ones out, which
 /// they do not meet: a processor works on runs of both at once.
 constexpr std::uint32_t kLate = 3;
-
-/// Of each particle, edges to the nearest of `from`; 0 where there is none in its part.
-std::vector<std::uint32_t> count_hops(std::uint32_t particle_count, std::span<const std::uint32_t> from,
-                                      std::span<const EdgeEnds> edges) {
-  std::vector<std::uint32_t> begin(std::size_t{particle_count} + 1), across(2 * edges.size());
-  for (const EdgeEnds& edge : edges) ++begin[edge[0] + 1], ++begin[edge[1] + 1];
-  for (std::uint32_t i = 0; i < particle_count; ++i) begin[i + 1] += begin[i];
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const auto& [i, j] : edges) across[next[i]++] = j, across[next[j]++] = i;
-
-  std::vector<std::uint32_t> hops(particle_count, kFar), queue(from.begin(), from.end());
-  for (const std::uint32_t i : from) hops[i] = 0;
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const std::uint32_t i = queue[head];
-    for (std::uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
-      const std::uint32_t j = across[k];
-      if (hops[j] == kFar) hops[j] = hops[i] + 1, queue.push_back(j);
-    }
-  }
-  std::replace(hops.begin(), hops.end(), kFar, 0u);
-  return hops;
-}
 
 }  // namespace
 
@@ -45,7 +24,8 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> fr
     EdgeEnds edge;
     auto operator<=>(const Place&) const = default;
   };
-  const std::vector<std::uint32_t> hops = count_hops(particle_count, from, edges);
+  std::vector<std::uint32_t> hops = Walk(from, particle_count, edges).hops;
+  std::replace(hops.begin(), hops.end(), Walk::kNever, 0u);
   std::vector<Place> places;
   for (const EdgeEnds& edge : edges) {
     const std::uint32_t from_pins = hops[edge[0]] + hops[edge[1]], late = hops[edge[0]] == hops[edge[1]] ? kLate : 0;

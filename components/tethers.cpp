@@ -4,32 +4,13 @@
 #include <tuple>
 #include <vector>
 
+#include "components/garment.h"
 #include "components/geodesics.h"
 #include "components/lanes.h"
-#include "components/neighbours.h"
+#include "components/walk.h"
 
 namespace pleat {
 namespace {
-
-struct Farthest {
-  std::uint32_t particle, edges;
-};
-
-/// Breadth first from `start`: what is reached last, and over how many edges.
-Farthest farthest_from(std::vector<std::uint32_t> start, const IndexLists& edges_at, const Garment& g) {
-  std::vector<std::uint32_t> depth(g.particle_count, kNone);
-  for (const std::uint32_t i : start) depth[i] = 0;
-  std::vector<std::uint32_t>& queue = start;
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    for (const std::uint32_t e : edges_at.of(queue[head])) {
-      const std::uint32_t j = across(g, e, queue[head]);
-      if (depth[j] != kNone) continue;
-      depth[j] = depth[queue[head]] + 1;
-      queue.push_back(j);
-    }
-  }
-  return {queue.back(), depth[queue.back()]};
-}
 
 /// Every particle's nearest pin, then every one's next: a run of lanes has no particle twice.
 void add_tethers(Garment& g) {
@@ -54,13 +35,15 @@ void add_tethers(Garment& g) {
 }  // namespace
 
 void measure_tethers(Garment& g) {
-  const IndexLists edges_at(g.particle_count, g.edge_particle);
+  std::vector<EdgeEnds> edges;
+  for (std::uint32_t e = 0; e < g.edge_count; ++e) edges.push_back({g.edge_particle[0][e], g.edge_particle[1][e]});
+  const auto walk = [&](std::span<const std::uint32_t> starts) { return Walk(starts, g.particle_count, edges); };
   if (g.pins.size() != 0) {
-    g.depth = farthest_from({g.pins.begin(), g.pins.end()}, edges_at, g).edges;
+    g.depth = walk({g.pins.begin(), g.pins.end()}).depth();
     if (g.depth >= kSweepReach) add_tethers(g);
   } else {
-    const Farthest end = farthest_from({g.edge_particle[0][0]}, edges_at, g);
-    g.depth = farthest_from({end.particle}, edges_at, g).edges / 2;
+    const std::uint32_t end = walk({edges[0].data(), 1}).order.back();
+    g.depth = walk({&end, 1}).depth() / 2;
   }
 }
 
