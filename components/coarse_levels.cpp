@@ -41,41 +41,37 @@ Net finest(const Garment& g) {
   return net;
 }
 
-/// Which particles make the next level: all that are no neighbours of one before, where the walk comes and then
-/// elsewhere.
-std::vector<bool> choose_apart(const Net& net, const Walk& walk) {
-  std::vector<bool> chosen(net.links.size()), beside(net.links.size());
+/// Of each particle those of the next level beside it, nearest first; one of that level has but itself.
+using Parents = std::vector<std::vector<Link>>;
+
+/// The next level are all that are no neighbours of one before, where the walk comes and then elsewhere.
+Parents choose_parents(const Net& net, const Walk& walk) {
+  Parents parents(net.links.size());
   for (const auto* particles : {&walk.order, &net.particles}) {
     for (const std::uint32_t i : *particles) {
-      if (beside[i]) continue;
-      chosen[i] = true;
-      for (const Link& link : net.links[i]) beside[link.to] = true;
+      if (!parents[i].empty()) continue;
+      parents[i] = {{i, 0.0f}};
+      for (const Link& link : net.links[i]) parents[link.to].push_back({i, link.length});
     }
   }
-  return chosen;
-}
-
-/// The chosen neighbours of a particle that is not, nearest first.
-std::vector<Link> parents_of(const Net& net, const std::vector<bool>& chosen, std::uint32_t i) {
-  std::vector<Link> parents;
-  std::ranges::copy_if(net.links[i], std::back_inserter(parents), [&](const Link& link) { return chosen[link.to]; });
-  std::ranges::sort(parents, {}, [](const Link& link) { return std::tuple(link.length, link.to); });
+  for (auto& of_one : parents) {
+    std::ranges::sort(of_one, {}, [](const Link& link) { return std::tuple(link.length, link.to); });
+  }
   return parents;
 }
 
+bool is_chosen(const Parents& parents, std::uint32_t i) { return parents[i].front().to == i; }
+
 /// Joins chosen particles whose neighbourhoods meet.
-Net coarser(const Net& net, const std::vector<bool>& chosen) {
+Net coarser(const Net& net, const Parents& parents) {
   Net out(static_cast<std::uint32_t>(net.links.size()));
-  std::vector<Link> nearest(net.links.size());
-  for (const std::uint32_t i : net.particles) {
-    if (chosen[i]) out.particles.push_back(i);
-    nearest[i] = chosen[i] ? Link{i, 0.0f} : parents_of(net, chosen, i).front();
-  }
+  std::ranges::copy_if(net.particles, std::back_inserter(out.particles),
+                       [&](std::uint32_t i) { return is_chosen(parents, i); });
   std::map<EdgeEnds, float> shortest;
   for (const std::uint32_t i : net.particles) {
     for (const Link& link : net.links[i]) {
-      const auto [a, to_a] = nearest[i];
-      const auto [b, to_b] = nearest[link.to];
+      const auto [a, to_a] = parents[i].front();
+      const auto [b, to_b] = parents[link.to].front();
       if (a >= b) continue;  // the same, or met from the other side
       const float way = to_a + link.length + to_b;
       const auto [at, is_new] = shortest.try_emplace({a, b}, way);
@@ -86,10 +82,10 @@ Net coarser(const Net& net, const std::vector<bool>& chosen) {
   return out;
 }
 
-void add_children(const Garment& g, const Net& net, const std::vector<bool>& chosen, CoarseLevel& level) {
+void add_children(const Garment& g, const Net& net, const Parents& parents, CoarseLevel& level) {
   std::vector<std::uint32_t> children;
   std::ranges::copy_if(net.particles, std::back_inserter(children),
-                       [&](std::uint32_t i) { return !chosen[i] && g.pinned[i] == 0; });
+                       [&](std::uint32_t i) { return !is_chosen(parents, i) && g.pinned[i] == 0; });
   const std::size_t count = padded(children.size());
   level.child.resize(count);
   std::fill(level.child.begin(), level.child.end(), g.slots.empty_place);
@@ -98,14 +94,14 @@ void add_children(const Garment& g, const Net& net, const std::vector<bool>& cho
     std::fill(level.parent[k].begin(), level.parent[k].end(), g.slots.empty_place);
   }
   for (std::size_t c = 0; c < children.size(); ++c) {
-    std::vector<Link> parents = parents_of(net, chosen, children[c]);
-    parents.resize(std::min(parents.size(), kParents));
+    const std::vector<Link>& all = parents[children[c]];
+    const std::span nearest(all.begin(), std::min(all.size(), kParents));
     float sum = 0.0f;
-    for (const Link& parent : parents) sum += 1.0f / std::max(parent.length, kShortest);
+    for (const Link& parent : nearest) sum += 1.0f / std::max(parent.length, kShortest);
     level.child[c] = children[c];
-    for (std::size_t k = 0; k < parents.size(); ++k) {
-      level.parent[k][c] = parents[k].to;
-      level.weight[k][c] = 1.0f / (std::max(parents[k].length, kShortest) * sum);
+    for (std::size_t k = 0; k < nearest.size(); ++k) {
+      level.parent[k][c] = nearest[k].to;
+      level.weight[k][c] = 1.0f / (std::max(nearest[k].length, kShortest) * sum);
     }
   }
 }
@@ -133,11 +129,11 @@ void add_coarse_levels(Garment& g) {
   for (;;) {
     const Walk walk(roots, g.particle_count, net.edges);
     if (walk.depth() < kCoarseDepth) break;
-    const std::vector<bool> chosen = choose_apart(net, walk);
+    const Parents parents = choose_parents(net, walk);
     CoarseLevel level(g.coarse.get_allocator().resource());
-    add_children(g, net, chosen, level);
-    net = coarser(net, chosen);
-    std::erase_if(roots, [&](std::uint32_t i) { return !chosen[i]; });
+    add_children(g, net, parents, level);
+    net = coarser(net, parents);
+    std::erase_if(roots, [&](std::uint32_t i) { return !is_chosen(parents, i); });
     add_edges(g, net, roots, level);
     g.coarse.insert(g.coarse.begin(), std::move(level));
   }
