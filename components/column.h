@@ -125,8 +125,12 @@ void at_least(AnyColumn& column, std::size_t size) {
   if (column.size() < size) column.resize(size);
 }
 
+/// The first `count` vectors.
 inline void clear(const Vec3View& v, std::size_t count) {
   std::fill_n(v.x, count, 0.0f), std::fill_n(v.y, count, 0.0f), std::fill_n(v.z, count, 0.0f);
+}
+inline void copy(const Vec3View& to, const ConstVec3View& from, std::size_t count) {
+  std::copy_n(from.x, count, to.x), std::copy_n(from.y, count, to.y), std::copy_n(from.z, count, to.z);
 }
 
 /// Vectors as three columns.

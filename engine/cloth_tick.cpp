@@ -31,10 +31,6 @@ constexpr float kBendingHeld = 1.0f / 120;    // s, for how long its force is he
 constexpr float kLooseStart = 0.005f;         // elongation beyond the strain limit that a start may have
 constexpr int kRetries = 2;                   // of a tick that went wrong, each with twice the substeps, 128 at most
 
-void stop(ClothTick& t) {
-  for (std::size_t i = 0; i < t.garment.particle_count; ++i) t.velocity.set(i, {});
-}
-
 /// A start that is stretched or inside a body, as garments made for another body are, is pulled together and pushed out
 /// before it may move: the strain limit and the contacts would turn that into speed.
 void begin_settling(ClothTick& t) {
@@ -51,7 +47,7 @@ void settle([[maybe_unused]] ClothTick& t) {
   t.deep = std::any_of(rows + t.cloth_rows, rows + t.worker.contact_count,
                        [&](const ContactRow& row) { return comes_from_inside(row, t.previous, t.dt); });
 #endif
-  if (t.loose || t.deep) stop(t);
+  if (t.loose || t.deep) clear(t.velocity, t.garment.particle_count);
 }
 
 std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
@@ -199,10 +195,7 @@ void roll_back(ClothTick& t) {
   const std::size_t n = t.garment.particle_count;
   copy(t.position, t.start, n);
   copy(t.velocity, t.start_velocity, n);
-  if (t.world.held.size() != 0) {
-    const Vec3View held = t.world.held.view().from(t.cloth.particle_begin);
-    for (std::size_t i = 0; i < n; ++i) held.set(i, {});
-  }
+  if (t.world.held.size() != 0) clear(t.world.held.view().from(t.cloth.particle_begin), n);
   t.cloth.self_pair_count = t.cloth.layer_pair_count = kNone;
   t.cloth.bending_left = 0;
 }
@@ -211,7 +204,7 @@ void roll_back(ClothTick& t) {
 void fall_back(ClothTick& t) {
   roll_back(t);
   const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
-  stop(t);
+  clear(t.velocity, n);
   if (pins != 0) {
     const RigidCarry carry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
                            .particle_count = n,

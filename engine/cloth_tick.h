@@ -1,20 +1,12 @@
 // One cloth through one tick: how many substeps, and what happens when they go wrong.
 #pragma once
 
-#include <algorithm>
-
 #include "engine/schedule_table.h"
 
 namespace pleat {
 
 /// Runs the rows of a phase that are in the cloth's plan.
 void run_phase(ClothTick& t, Phase phase);
-/// Copies `count` vectors.
-inline void copy(const Vec3View& to, const ConstVec3View& from, std::size_t count) {
-  std::copy_n(from.x, count, to.x);
-  std::copy_n(from.y, count, to.y);
-  std::copy_n(from.z, count, to.z);
-}
 /// Advances the cloth by dt seconds, on any thread: it changes nothing but the cloth and the worker. A tick that ends
 /// badly (rows of the phase `check`) begins anew with twice the substeps, twice at most; then the cloth stays as it
 /// was.

@@ -33,10 +33,8 @@ void make_layer_room(World& world, const ClothRecord& cloth) {
 void begin_layers(World& world) {
   LayerColumns& layers = world.layers;
   if (layers.begin.size() == 0) return;
-  const ConstVec3View from = world.particles.position.view();
-  const Vec3View to = layers.begin.view();
-  const std::size_t count = std::min(layers.begin.size(), world.particles.position.size());
-  std::copy_n(from.x, count, to.x), std::copy_n(from.y, count, to.y), std::copy_n(from.z, count, to.z);
+  copy(layers.begin.view(), world.particles.position.view(),
+       std::min(layers.begin.size(), world.particles.position.size()));
   std::fill(layers.clothes.begin(), layers.clothes.end(), LayerCloth{});
 }
 

@@ -49,8 +49,7 @@ void watch_rest(ClothTick& t) {
   const bool calm =
       !t.trouble && largest_speed(n, t.velocity) < t.settings.sleep_speed && !in_gusts(t) && !is_disturbed(t);
   t.cloth.calm = calm ? t.cloth.calm + t.frame_dt : 0.0f;
-  if (t.cloth.calm < kFallAsleep) return;
-  for (std::size_t i = 0; i < n; ++i) t.velocity.set(i, {});
+  if (t.cloth.calm >= kFallAsleep) clear(t.velocity, n);
 }
 
 }  // namespace pleat

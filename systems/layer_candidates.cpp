@@ -89,7 +89,7 @@ void LayerCandidates::run(Stats& stats) const {
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
-  for (std::uint32_t i = 0; i < garment->particle_count; ++i) sought_at.set(i, position[i]);
+  copy(sought_at, position, garment->particle_count);
   *t_sought = t1;
   *pairs.count = 0;
   NearMemory memory{scratch->pairs.data(), scratch->pairs.data() + kept};

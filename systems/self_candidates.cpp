@@ -39,7 +39,7 @@ void SelfCandidates::run(Stats& stats) const {
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
-  for (std::uint32_t i = 0; i < count; ++i) sought_at.set(i, position[i]);
+  copy(sought_at, position, count);
 
   // What crosses in this substep is no further beyond than it has moved.
   const float kept_distance = std::min(distance, most_distance(*garment));

@@ -243,10 +243,7 @@ bool Tessellation::validate() const {
 }
 
 void Tessellation::run() const {
-  const std::uint32_t particles = garment->particle_count;
-  std::copy(position.x, position.x + particles, drawn_position.x);
-  std::copy(position.y, position.y + particles, drawn_position.y);
-  std::copy(position.z, position.z + particles, drawn_position.z);
+  copy(drawn_position, position, garment->particle_count);
   switch (mode) {
     case SurfaceMode::kFlat:
       return run_wide(widest_vectors(), [this] { draw_flat(*this); });
