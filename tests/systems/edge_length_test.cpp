@@ -237,6 +237,32 @@ TEST(EdgeLength, DoesNotDependOnNeighboursInTheBlock) {
   }
 }
 
+TEST(EdgeLength, CurvesThatFoldSidesLeftGiveTheSameBits) {
+  for (const float crease_angle : {4.0f, 0.5f}) {
+    Surface s(garment_of(skirt(), crease_angle), 0);
+    s.move([](const Vec3& x) { return Vec3{0.85f * x.x, x.y, x.z}; });
+    s.jitter(0.01f, 5);
+    s.run();
+    const std::vector<float> height(s.fold_height.begin(), s.fold_height.end());
+    Vec3Column fold(std::pmr::get_default_resource());
+    fold.resize(s.garment.edge_count);
+    copy(fold.view(), s.fold.view(), s.garment.edge_count);
+
+    std::ranges::fill(s.fold_height, -1.0f);
+    clear(s.fold.view(), s.garment.edge_count);
+    EdgeLength shared = s.edge_length();
+    shared.curves = s.choices.curves.data();
+    shared.run();
+    int folded = 0;
+    for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+      EXPECT_EQ(s.fold_height[e], height[e]) << e;
+      EXPECT_EQ(s.fold.view()[e], fold.view()[e]) << e;
+      folded += height[e] != 0.0f ? 1 : 0;
+    }
+    EXPECT_GT(folded, 50);
+  }
+}
+
 TEST(EdgeLength, DegenerateEdgesStayFinite) {
   for (const SurfaceMode mode : {SurfaceMode::kPaper, SurfaceMode::kPleat}) {
     Edges edges(mode);

@@ -173,6 +173,16 @@ TEST(Tessellation, TellsHowFarTheVerticesOfFacesAreFromTheFlatTriangles) {
   }
 }
 
+TEST(Tessellation, CurvesThatFoldSidesLeftGiveTheSameBits) {
+  const Surface anew = crumpled(SurfaceMode::kPleat, 3);
+  Surface s = crumpled(SurfaceMode::kPleat, 3);
+  clear(s.drawn.view(), s.pattern.vertex_count);
+  Tessellation shared = s.tessellation();
+  shared.curves = s.choices.curves.data();
+  shared.run();
+  for (std::uint32_t i = 0; i < s.pattern.vertex_count; ++i) EXPECT_EQ(s.drawn.view()[i], anew.drawn.view()[i]) << i;
+}
+
 TEST(Tessellation, FoldsOverAFlatFaceAreThePapersFourPatches) {
   // With upright normals the four rebuilt PN triangles and the bump field are the same cubics.
   for (const std::uint32_t level : {0u, 2u, 5u}) {
