@@ -6,8 +6,7 @@
 //   for each cloth:
 //     substep begin               pins and colliders take their places
 //     stage                       forces, then integration; Runge-Kutta repeats it four times, stiff bending up to
-//     four;
-//                                 soft bending is found every third substep and held between
+//                                 four times; soft bending is found 120 times a second and held between
 //     contact                     contact rows at the predicted positions
 //     sweep                       repeated: strain limit and contact converge together
 //     friction                    what slid is held back; contact has the last word

@@ -11,8 +11,8 @@ namespace pleat {
 /// Chooses p' = p + h n, eq (5), for the middle p of each edge's PN curve. h = 0 where the curve is not short.
 /// kPleat
 ///   n       across the curve's tangent in its middle, in the plane of the two normals' sum
-///   target  the length of the curve at rest, missed by up to 1 % of it so that h starts smoothly: a deficit of e is
-///           closed by e^2 / (e + 1 %)
+///   target  the length of the curve at rest, missed by up to .45 % of it so that h starts smoothly: a deficit of e is
+///           closed by e^2 / (e + .45 %)
 ///   h       on the side that fold_sides chose, lower where that is undecided. L(h) of the folded curve
 ///           (components/pn_edge.h) is convex; one Newton step from the closed form for a straight edge meets the
 ///           target to 0.5 % down to 0.3 of the length where the curve bulges to that side already; a fold against the

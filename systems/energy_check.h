@@ -16,8 +16,8 @@ float rms_speed(std::size_t count, const float* mass, const float* inverse_mass,
 /// for what is not listed,
 ///   2 (v + |g| dt + wind + fastest pin + fastest body + c + e) + 10 m/s
 /// v its own when the tick began; c = (by how much the longest edge or tether exceeds its rest length) / substep, which
-/// the strain limit turns into motion; e = sqrt(2 E / mass) of the energy E in springs, k L (l - L)^2 / (2 L) at most,
-/// and in bending through half a turn. An explosion goes past any such bound within a few substeps.
+/// the strain limit turns into motion; e = sqrt(2 E / mass) of the energy E in springs, about k d^2 max(1, d/L) / 2 for
+/// d = l - L, and in bending through half a turn. An explosion goes past any such bound within a few substeps.
 /// Reads:  garment; start (P) m, where the tick began; mass kg, inverse_mass 1/kg (P); pins (pins) m; bodies
 /// Cost:   O(P + E + bodies' vertices), no allocation: for ticks that look suspicious.  Errors: none.
 struct SpeedBound {

@@ -23,7 +23,7 @@ namespace pleat {
 
 /// Moves the folds that edge length control (SurfaceMode::kPleat) made. A fold of no height stays as it is, bit for
 /// bit, and one of hardly any height hardly moves, so that nothing begins with a jump.
-/// Reads:  garment faces, edges and rest lengths; position (P) m; normal (P) unit
+/// Reads:  garment faces, edges and rest lengths; position (P) m; normal (N) unit
 /// Writes: fold (E) unit and fold_height (E) m; scratch (E)
 /// Cost:   O(sweeps E), no allocation. Errors: none; folds stay bounded for any particles.
 struct FoldRelaxation {

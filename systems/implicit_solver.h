@@ -28,10 +28,12 @@ class ImplicitMatrix {
 };
 
 /// A step of backward Euler, linearised where it begins; `force` holds all forces there, the springs' too:
-///   (M + dt^2 K) (v' - v) = dt (F - dt K v),   x' = x + dt v',   K = sum over edges of k (max(l/L - r, 0) I + l/L u
-///   u^T)
+///   (M + dt^2 K) (v' - v) = dt (F - dt K v),   x' = x + dt v',
+///   K = sum over edges of k (max(l/L - r, 0) I + l/L u u^T)
 /// with k and r of the line of its law that an edge is on. M + dt^2 K is positive definite at any stiffness. Pins keep
-/// their velocity. Reads:  garment edges; inverse_mass (P) 1/kg; force (P) N.  Writes: position m, velocity m/s (P).
+/// their velocity.
+/// Reads:  garment edges; inverse_mass (P) 1/kg; force (P) N
+/// Writes: position m, velocity m/s (P)
 /// Cost:   O(P^1.5) for a sheet, no allocation below 5,000 particles.  Errors: none.
 struct ImplicitIntegration {
   const Garment* garment = nullptr;

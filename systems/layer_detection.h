@@ -12,9 +12,10 @@ namespace pleat {
 
 /// Adds a row for each pair that is nearer than twice its distance at the end of the substep, or on the wrong side, as
 /// SelfDetection does. The cloth below is a body here: it moves as it has moved in this tick already, and is not
-/// pushed. Reads:  garments; position, previous (P) m; inverse_mass (P) 1/kg; clothes Writes: side of the pairs;
-/// contacts, added to; stats.contacts_dropped Cost:   O(pairs), no allocation. Errors: none; features without extent
-/// make no row.
+/// pushed.
+/// Reads:  garments; position, previous (P) m; inverse_mass (P) 1/kg; clothes
+/// Writes: side of the pairs; contacts, added to; stats.contacts_dropped
+/// Cost:   O(pairs), no allocation. Errors: none; features without extent make no row.
 struct LayerDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted

@@ -23,9 +23,9 @@ namespace pleat {
 
 /// Adds the planes that keep drawn triangles at least `clearance` from mesh bodies. None is added where the surface
 /// cannot have fallen behind it, from how far its vertices are from their places on the coarse triangle.
-/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; meshes, their
-/// trees Writes: near (scratch); planes, and drawn_position (V) m where the list of planes is full Cost:   O(F log T +
-/// drawn triangles * body triangles near their face), no allocation. Errors: none.
+/// Reads:  garment faces; pattern; footprint (V) m, the drawn vertices on the flat coarse triangles; meshes; bodies
+/// Writes: near (scratch); planes, and drawn_position (V) m where the list of planes is full
+/// Cost:   O(F log T + drawn triangles * body triangles near their face), no allocation. Errors: none.
 struct MeshClearance {
   const Garment* garment = nullptr;
   const TessellationPattern* pattern = nullptr;

@@ -9,8 +9,10 @@
 namespace pleat {
 
 /// x := motion(x), and vectors turn with it, so that afterwards the cloth looks and moves as before, seen from its
-/// pins. Reads:  motion.  Writes: position (P) m; velocity (P) m/s; held (P) m/s2 where there is any Cost:   O(P), no
-/// allocation. Errors: none.
+/// pins.
+/// Reads:  motion
+/// Writes: position (P) m; velocity (P) m/s; held (P) m/s2 where there is any
+/// Cost:   O(P), no allocation. Errors: none.
 struct RigidCarry {
   RigidMotion motion;
   std::size_t particle_count = 0;
