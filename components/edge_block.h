@@ -9,15 +9,13 @@ namespace pleat {
 
 struct EdgeBlock {
   Vec3Lanes a, b, na, nb;  // ends, m, and their unit normals
-  Lanes target;            // m, length of the curve at rest
 
   /// Edges from `begin` on, and the padding of g's columns where they end.
   PLEAT_KERNEL EdgeBlock(const Garment& g, ConstVec3View position, ConstVec3View normal, std::uint32_t begin)
       : a(gather(position, g.edge_particle[0].data() + begin)),
         b(gather(position, g.edge_particle[1].data() + begin)),
         na(gather(normal, g.edge_normal[0].data() + begin)),
-        nb(gather(normal, g.edge_normal[1].data() + begin)),
-        target(load(g.edge_rest_curve_length.data() + begin)) {}
+        nb(gather(normal, g.edge_normal[1].data() + begin)) {}
 
   PnEdgeT<Lanes> curve() const { return {a, b, na, nb}; }
 };

@@ -27,11 +27,9 @@ struct FoldChoices {
   explicit FoldChoices(std::pmr::memory_resource* m)
       : curves(m), middle(m), direction(m), up(m), down(m), side(m), height(m), bump(m), gain(m), springs(m) {}
   void make_room(std::size_t edges, std::size_t faces) {
-    if (gain.size() < edges) {
-      curves.resize((edges + kLanes - 1) / kLanes), middle.resize(edges), direction.resize(edges);
-      for (Column<float>* c : {&up, &down, &side, &height, &bump, &gain}) c->resize(edges);
-    }
-    if (springs.size() * kLanes < faces) springs.resize((faces + kLanes - 1) / kLanes);
+    at_least(curves, (edges + kLanes - 1) / kLanes), at_least(middle, edges), at_least(direction, edges);
+    for (Column<float>* c : {&up, &down, &side, &height, &bump, &gain}) at_least(*c, edges);
+    at_least(springs, (faces + kLanes - 1) / kLanes);
   }
   bool holds(std::size_t edges, std::size_t faces) const {
     return gain.size() >= edges && springs.size() * kLanes >= faces;

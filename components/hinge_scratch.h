@@ -20,8 +20,8 @@ struct HingeScratch {
   explicit HingeScratch(std::pmr::memory_resource* m) : blocks(m), turn(m) {}
   void make_room(std::uint32_t hinges) {
     const std::size_t count = (std::size_t{hinges} + kLanes - 1) / kLanes;
-    if (blocks.size() < count) blocks.resize(count);
-    if (turn.size() < count * kLanes) turn.resize(count * kLanes);
+    at_least(blocks, count);
+    at_least(turn, count * kLanes);
   }
 };
 

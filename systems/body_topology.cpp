@@ -1,7 +1,6 @@
 #include "systems/body_topology.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pleat {
 namespace {
@@ -10,10 +9,7 @@ struct HalfEdge {
   std::uint32_t low, high, slot;  // slot = 3 triangle + k
 
   bool same_edge(const HalfEdge& b) const { return low == b.low && high == b.high; }
-  friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
-    return std::pair(a.low, a.high) != std::pair(b.low, b.high) ? std::pair(a.low, a.high) < std::pair(b.low, b.high)
-                                                                : a.slot < b.slot;
-  }
+  friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
 };
 
 void join_neighbours(const MeshCollider& mesh, BodyTopology& topology, std::pmr::memory_resource* memory) {

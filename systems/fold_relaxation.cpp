@@ -28,7 +28,8 @@ PLEAT_KERNEL void begin(const FoldRelaxation& s) {
   for (std::uint32_t e = 0; e < s.garment->edge_count; e += kLanes) {
     const EdgeBlock block(*s.garment, s.position, s.normal, e);
     const Vec3Lanes middle = block.curve().middle() + folds(s, e);
-    const Lanes sure = kSureHeight * block.target, height = load(s.fold_height + e), h2 = height * height;
+    const Lanes sure = kSureHeight * load(s.garment->edge_rest_curve_length.data() + e);
+    const Lanes height = load(s.fold_height + e), h2 = height * height;
     store(middle, s.scratch.middle, e);
     store(Vec3Lanes{}, s.scratch.pull, e);
     store(0.5f * (length(middle - block.a) + length(middle - block.b)), s.scratch.half_length + e);

@@ -20,9 +20,9 @@ Corners corners_of(const NearPair& pair, const Garment& own, const Garment& othe
   }
   const bool own_face = pair.kind == NearKind::kOtherParticleFace;
   const auto& face = (own_face ? own : other).face_particle;
-  const Corners corners{{pair.first, face[0][pair.second], face[1][pair.second], face[2][pair.second]}, 0, 1};
-  return own_face ? Corners{{corners.particle[0], corners.particle[1], corners.particle[2], corners.particle[3]}, 1, 3}
-                  : corners;
+  return {{pair.first, face[0][pair.second], face[1][pair.second], face[2][pair.second]},
+          own_face ? 1 : 0,
+          own_face ? 3 : 1};
 }
 
 }  // namespace

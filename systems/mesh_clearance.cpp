@@ -114,7 +114,7 @@ struct MeshTest {
     if (distance2 >= limit * limit) return false;
     const bool touches = distance2 < kTouching * kTouching;
     if (!touches && !is_extreme(body.index, pair.second, surface, away)) return false;
-    const Vec3 outward = outward_at(body.index, pair.second, at);
+    const Vec3 outward = zeros(pair.second) == 0 ? body.normal : pose.outward(body.index, pair.second).normal;
     const float side = dot(away, outward) < 0.0f ? -1.0f : 1.0f;
     const bool own_normal = touches || zeros(pair.second) == 0;
     const Vec3 normal = normalized_or(own_normal ? outward : away * side, Vec3{});
@@ -124,11 +124,6 @@ struct MeshTest {
     return true;
   }
 
-  /// Out of the body at a point of triangle t; not of unit length.
-  Vec3 outward_at(std::uint32_t t, const Barycentrics& w, const MeshPose::Corners& at) const {
-    if (zeros(w) == 2) return pose.vertex_normal(pose.corner(t, corner_of(w)));
-    return zeros(w) == 1 ? pose.edge_normal(t, edge_of(w)) : at.normal();
-  }
   static int zeros(const Barycentrics& w) { return (w.a == 0.0f) + (w.b == 0.0f) + (w.c == 0.0f); }
   static int corner_of(const Barycentrics& w) { return w.a > 0.0f ? 0 : w.b > 0.0f ? 1 : 2; }
   static int edge_of(const Barycentrics& w) { return w.c == 0.0f ? 0 : w.a == 0.0f ? 1 : 2; }
