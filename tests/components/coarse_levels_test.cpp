@@ -66,6 +66,7 @@ TEST(CoarseLevels, EveryParticleButPinsIsAChildOnceOrOfTheCoarsestLevel) { expec
 
 TEST(CoarseLevels, ParentsAreOfTheLevelAndShareTheirChildAmongThem) {
   const Garment g = square(40, kCorner);
+  ASSERT_FALSE(g.coarse.empty());
   for (const CoarseLevel& level : g.coarse) {
     const std::set<std::uint32_t> of_level = ends_of(level.slots);
     ASSERT_EQ(level.child.size() % kLanes, 0u);
@@ -86,6 +87,7 @@ TEST(CoarseLevels, EdgesAreWaysAlongEdgesNeverShorterThanStraight) {
   Mesh mesh = make_grid({.rows = 40, .columns = 40, .alternate = true});
   for (Vec3& p : mesh.positions) p.y = 0.2f * std::cos(6.0f * p.x);
   const Garment g = garment_of(mesh, kCorner);
+  ASSERT_FALSE(g.coarse.empty());
   const ConstVec3View x = g.rest_position.view();
   for (const CoarseLevel& level : g.coarse) {
     for (std::uint32_t s = 0; s < level.slots.count; ++s) {

@@ -4,9 +4,12 @@
 
 #include <cmath>
 
+#include "components/base_normal.h"
+#include "components/creases.h"
 #include "components/pn_edge.h"
 #include "components/shapes.h"
 #include "components/tessellation_pattern.h"
+#include "tests/components/cube.h"
 
 namespace pleat {
 namespace {
@@ -37,6 +40,26 @@ TEST(SuggestedLevel, BendOfAnArcIsItsChordTimesItsTurn) {
     const float ratio = Tube(facets).bend() / (chord * turn);
     EXPECT_GT(ratio, 0.99f) << facets;
     EXPECT_LT(ratio, 1.0f + turn * turn) << facets;  // the bound counts bending along the chord too
+  }
+}
+
+TEST(SuggestedLevel, BetweenCreasesASurfaceIsAsFlatAsItsFaces) {
+  const Mesh cube = make_cube();
+  for (const float crease_angle : {1.0f, 3.0f}) {
+    const Garment g =
+        build_garment({cube.positions, cube.triangles, {}, {}, {}, crease_angle}, std::pmr::new_delete_resource());
+    Vec3Column normal(std::pmr::new_delete_resource());
+    normal.resize(g.normal_count);
+    const ConstVec3View x = g.rest_position.view();
+    for (std::uint32_t f = 0; f < g.face_count; ++f) {
+      const auto corner = [&](std::size_t k) { return x[g.face_particle[k][f]]; };
+      for (const auto& of : g.face_normal)
+        normal.view().add(of[f], cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+    complete_normals(g, normal.view());
+    normalize(normal.view(), g.normal_count);
+    const float bend = largest_bend(g, x, normal.view(), nullptr);
+    EXPECT_EQ(bend < 1e-6f, crease_angle == 1.0f) << bend;
   }
 }
 

@@ -137,6 +137,7 @@ TEST(Tethers, OfADomeAreNoShorterThanStraightAndNoLongerThanItsEdges) {
   for (Vec3& p : dome.positions) p.y = 0.8f * std::cos(2.0f * p.x) * std::cos(2.0f * p.z);
   const std::uint32_t pins[] = {6};
   const Garment g = garment_of(dome, pins);
+  ASSERT_EQ(tethers_of(g).size(), g.particle_count - 1u);
   const std::vector<float> along_edges = all_ways(g);
   const ConstVec3View x = g.rest_position.view();
   for (const std::size_t t : tethers_of(g)) {
