@@ -43,14 +43,15 @@ struct alignas(32) Motion {
 /// of what works on edges and hinges, and where the particles are while sweeps and friction move them.
 struct Vec4Columns {
   Column<Vec4> position, force;  // m and, w, 1/kg of inverse mass; N
+  Column<Vec4> previous;         // m, where the substep began
   Column<Vec4> begin;            // m, where a sweep began
   Column<Motion> motion;         // the same positions; m/s
 
-  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), force(m), begin(m), motion(m) {}
+  explicit Vec4Columns(std::pmr::memory_resource* m) : position(m), force(m), previous(m), begin(m), motion(m) {}
   void make_room(std::size_t particles) {
     const std::size_t wanted = padded(particles) + 2;
     if (holds(particles)) return;
-    position.resize(wanted), force.resize(wanted), begin.resize(wanted), motion.resize(wanted);
+    position.resize(wanted), force.resize(wanted), previous.resize(wanted), begin.resize(wanted), motion.resize(wanted);
   }
   bool holds(std::size_t particles) const { return motion.size() >= padded(particles) + 2; }
 };

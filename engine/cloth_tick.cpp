@@ -80,10 +80,13 @@ void run_substep(ClothTick& t) {
   }
   copy(t.predicted, t.position, n);
   t.worker.contact_count = t.cloth_rows = 0;
-  run_phase(t, Phase::kContact);
   // What goes over edges and rows again and again finds a particle's numbers beside each other.
   Vec4* packed = t.worker.packed.position.data();
-  run_wide(widest_vectors(), [&] { pack(t.position, t.inverse_mass, n, packed); });
+  run_wide(widest_vectors(), [&] {
+    pack(t.previous, nullptr, n, t.worker.packed.previous.data());
+    pack(t.position, t.inverse_mass, n, packed);
+  });
+  run_phase(t, Phase::kContact);
   for (t.sweeps_left = sweeps_for(t); t.sweeps_left != 0; --t.sweeps_left) run_phase(t, Phase::kSweep);
   run_phase(t, Phase::kFriction);
   run_wide(widest_vectors(), [&] { unpack(packed, n, t.position); });

@@ -107,21 +107,20 @@ constexpr Row kRows[] = {
        return with_projection(w, c) == kNeeded ? kNeeded : with_stretch_limit(w, c);
      },
      [](ClothTick& t) {
-       run(EdgeWays{
-           .garment = &t.garment, .previous = t.previous, .packed = &t.worker.packed, .way = t.worker.edge_way.view()});
+       run(EdgeWays{.garment = &t.garment, .previous = &t.worker.packed.previous, .way = t.worker.edge_way.view()});
      }},
     // Before contact is looked for, which then is where the springs leave the cloth.
     {Phase::kContact, "elastic_projection", with_projection,
      [](ClothTick& t) {
        run(ElasticProjection{.garment = &t.garment,
-                             .inverse_mass = t.inverse_mass,
                              .law = t.edge_law(),
                              .damping_rate = t.settings.edge_damping,
                              .dt = t.dt,
                              .way = t.worker.edge_way.view(),
-                             .position = t.position,
-                             .packed = &t.worker.packed,
+                             .position = &t.worker.packed.position,
                              .passes = elastic_passes(t)});
+       run_wide(widest_vectors(),
+                [&] { unpack(t.worker.packed.position.data(), t.garment.particle_count, t.position); });
      }},
 #ifdef PLEAT_WITH_COLLISION
     // Rows of the cloth against itself come before those against bodies, which have the last word.
@@ -185,34 +184,34 @@ constexpr Row kRows[] = {
      }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
-       move_capsules(t, t.settings.thickness + contact_margin(t.position, t.previous, t.garment.particle_count));
+       t.contact_margin = contact_margin(t.position, t.previous, t.garment.particle_count);
+       move_capsules(t, t.settings.thickness + t.contact_margin);
      }},
     {Phase::kContact, "capsule_candidates", with_capsules,
      [](ClothTick& t) {
        run(CapsuleCandidates{.garment = &t.garment,
                              .position = t.position,
-                             .previous = t.previous,
+                             .packed = t.worker.packed.position.data(),
                              .capsules = t.worker.capsule_poses.data(),
                              .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
-                             .candidates = &t.worker.capsule_candidates,
-                             .packed = t.worker.packed.position.data()});
+                             .margin = t.contact_margin,
+                             .candidates = &t.worker.capsule_candidates});
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
      [](ClothTick& t) {
        run(CapsuleDetection{.garment = &t.garment,
-                            .position = t.position,
-                            .previous = t.previous,
-                            .inverse_mass = t.inverse_mass,
+                            .position = t.worker.packed.position.data(),
+                            .previous = t.worker.packed.previous.data(),
                             .capsules = t.worker.capsule_poses.data(),
                             .capsule_count = t.worker.capsule_pose_count,
                             .thickness = t.settings.thickness,
+                            .margin = t.contact_margin,
                             .friction = t.settings.friction,
                             .dt = t.dt,
                             .candidates = &t.worker.capsule_candidates,
                             .contacts = contacts_of(t),
-                            .blocks = t.worker.capsule_blocks.data(),
-                            .packed = t.worker.packed.position.data()},
+                            .blocks = t.worker.capsule_blocks.data()},
            t.worker.stats);
      }},
     {Phase::kContact, "plane_detection", with_planes,
@@ -298,8 +297,9 @@ constexpr Row kRows[] = {
     {Phase::kSweep, "collision_response", with_contacts, respond},
     {Phase::kFriction, "contact_friction", with_contacts,
      [](ClothTick& t) {
-       run(ContactFriction{
-           .contacts = contacts_of(t), .previous = t.previous, .position = t.worker.packed.position.data()});
+       run(ContactFriction{.contacts = contacts_of(t),
+                           .previous = t.worker.packed.previous.data(),
+                           .position = t.worker.packed.position.data()});
      }},
     // Rows of bodies that pinch the cloth push against each other in every sweep; friction takes the sum for pressure
     // and undoes what the strain limit has pulled. So the limit comes once more, and contact still has the last word.
@@ -308,7 +308,7 @@ constexpr Row kRows[] = {
     {Phase::kFriction, "contact_stick", with_contacts,
      [](ClothTick& t) {
        run(ContactFriction{.contacts = contacts_of(t),
-                           .previous = t.previous,
+                           .previous = t.worker.packed.previous.data(),
                            .longest = kCreepSpeed * t.dt,
                            .position = t.worker.packed.position.data()});
      }},

@@ -62,9 +62,9 @@ PLEAT_KERNEL float longest_motion(const CapsuleCandidates& in) {
 }
 
 /// Whether a feature that is not listed may be near now.
-PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in, float margin) {
-  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;           // m
-  const float skin = in.candidates->margin - kLaneRounding - margin;  // the least that any particle has room for
+PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in) {
+  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;              // m
+  const float skin = in.candidates->margin - kLaneRounding - in.margin;  // the least that any particle has room for
   const float moved = longest_motion(in);
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
@@ -74,11 +74,11 @@ PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in, float margin) {
     const float turned = length(then.b - now.b - shift);
     if (turned < kStraight) {
       const Vec3Lanes back = all(shift);
-      const float taken = turned + margin + kLaneRounding;
+      const float taken = turned + in.margin + kLaneRounding;
       if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return x + back; })) return true;
     } else {
       const WayBack back(now, then);
-      const float taken = length(back.at(now.b) - then.b) + kTurnRounding + margin + kLaneRounding;
+      const float taken = length(back.at(now.b) - then.b) + kTurnRounding + in.margin + kLaneRounding;
       if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return back.at(x); })) return true;
     }
   }
@@ -100,13 +100,67 @@ union Room {
   Room() {}
 };
 
-/// Marks one kind of features, whose corners are in the columns `corner`, a word at a time; and what is not marked but
-/// nearer than kFar leaves its particles that much room. Columns' padding belongs to particle 0.
+/// The lists of one kind of features, which have kCorners each, in columns of the garment; particles are their own.
+template <std::size_t kCorners>
+struct NearLists {
+  const CapsuleCandidates& in;
+  FeatureKind kind;
+  const std::uint32_t* corner[kCorners];
+
+  std::uint32_t corner_of(std::uint32_t feature, std::size_t k) const {
+    return kCorners == 1 ? feature : corner[k][feature];
+  }
+
+  void begin(std::uint32_t capsule) const {
+    in.candidates->of(capsule, kind) = {.begin = in.candidates->end[capsule], .count = 0};
+  }
+  /// Features that have a bit in `near`, the lowest for `first`.
+  void add(std::uint32_t capsule, std::uint32_t first, std::uint64_t near) const {
+    NearFeatures& list = in.candidates->of(capsule, kind);
+    if (near == 0 || list.begin == NearFeatures::kAll) return;
+    std::uint32_t n = list.count;
+    list.count += static_cast<std::uint32_t>(std::popcount(near));
+    if (end_of(list) > in.candidates->lists_end(capsule, in.capsule_count)) {
+      list.begin = NearFeatures::kAll;
+      return;
+    }
+    Vec4Place* const corners = corners_of(list);
+    for (; near != 0; near &= near - 1) put(first + static_cast<std::uint32_t>(std::countr_zero(near)), n++, corners);
+  }
+  void finish(std::uint32_t capsule) const {
+    NearFeatures& list = in.candidates->of(capsule, kind);
+    if (list.begin == NearFeatures::kAll) {
+      list.count = count_of(*in.garment, kind);
+      return;
+    }
+    Vec4Place* const corners = corners_of(list);
+    for (std::uint32_t n = list.count; n % kLanes != 0; ++n) {
+      for (std::size_t k = 0; k < kCorners; ++k) corners[place(n, k)] = corners[place(0, k)];
+    }
+    in.candidates->end[capsule] = end_of(list);
+  }
+
+ private:
+  static std::uint32_t end_of(const NearFeatures& list) {
+    return list.begin + (list.count + kLanes - 1) / kLanes * static_cast<std::uint32_t>(kLanes * kCorners);
+  }
+  static std::size_t place(std::uint32_t n, std::size_t k) {
+    return n / kLanes * kLanes * kCorners + k * kLanes + n % kLanes;
+  }
+  Vec4Place* corners_of(const NearFeatures& list) const { return in.candidates->corner.data() + list.begin; }
+  void put(std::uint32_t feature, std::uint32_t n, Vec4Place* corners) const {
+    for (std::size_t k = 0; k < kCorners; ++k) corners[place(n, k)] = Vec4Place::of(corner_of(feature, k));
+  }
+};
+
+/// Lists one kind of features, 64 at a time; and what is not listed but nearer than kFar leaves its particles that much
+/// room. Columns' padding belongs to particle 0.
 template <class Features, std::size_t kCorners, class MakeFeatures>
-PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::uint32_t count,
-                            const std::uint32_t* const (&corner)[kCorners], const MakeFeatures& make) {
+PLEAT_KERNEL void list_near(const NearLists<kCorners>& lists, const MakeFeatures& make) {
   constexpr std::uint32_t kBits = 64;
-  const std::size_t words = FeatureWords(*in.garment).end;
+  const CapsuleCandidates& in = lists.in;
+  const std::uint32_t count = count_of(*in.garment, lists.kind);
+  for (std::uint32_t c = 0; c < in.capsule_count; ++c) lists.begin(c);
   for (std::uint32_t begin = 0; begin < count; begin += kBits) {
     const std::uint32_t rest = std::min(count - begin, kBits);
     const std::uint64_t used = ~std::uint64_t{0} >> (kBits - rest);
@@ -114,8 +168,7 @@ PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::
     for (std::uint32_t k = 0; k < rest; k += kLanes) {
       std::construct_at(features.places + k / kLanes, make(begin + k));
     }
-    std::uint64_t* at = in.candidates->marked.data() + word + begin / kBits;
-    for (std::uint32_t c = 0; c < in.capsule_count; ++c, at += words) {
+    for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
       const float surface = widest_radius(in.capsules[c]) + in.thickness, within = surface + in.candidates->margin;
       const Core core(in.capsules[c], std::max(within, surface + CapsuleCandidates::kFar));
       float* room = in.candidates->room_of(*in.garment, c);
@@ -130,94 +183,60 @@ PLEAT_KERNEL void mark_near(const CapsuleCandidates& in, std::size_t word, std::
       for (far &= used & ~near; far != 0; far &= far - 1) {
         const auto k = static_cast<std::uint32_t>(std::countr_zero(far));
         const float away = std::sqrt(distance2[k]) - surface;
-        for (const std::uint32_t* particle : corner) {
-          float& left = room[particle == nullptr ? begin + k : particle[begin + k]];
+        for (std::size_t n = 0; n < kCorners; ++n) {
+          float& left = room[lists.corner_of(begin + k, n)];
           left = std::min(left, away);
         }
       }
-      *at = near & used;
+      lists.add(c, begin, near & used);
     }
   }
+  for (std::uint32_t c = 0; c < in.capsule_count; ++c) lists.finish(c);
 }
 
 PLEAT_KERNEL Vec3Lanes places(const Vec4* x, const std::uint32_t* corner, std::size_t first) {
   return gather(x, corner + first).vector;
 }
 
-PLEAT_KERNEL void mark_all(const CapsuleCandidates& in) {
+PLEAT_KERNEL void list_all(const CapsuleCandidates& in) {
   const Garment& g = *in.garment;
-  const FeatureWords words(g);
   const Vec4* x = in.packed;
   std::fill_n(in.candidates->room.data(), padded(g.particle_count) * in.capsule_count,
               std::max(in.candidates->margin, CapsuleCandidates::kFar));
-  mark_near<Vec3Lanes>(in, words.particles, g.particle_count, {nullptr},
-                       [&](std::size_t i) { return load(in.position, i); });
-  const std::uint32_t* const end[] = {g.edge_particle[0].data(), g.edge_particle[1].data()};
-  mark_near<EdgeLanes>(in, words.edges, g.edge_count, end,
-                       [&](std::size_t e) { return EdgeLanes(places(x, end[0], e), places(x, end[1], e)); });
-  const std::uint32_t* const corner[] = {g.face_particle[0].data(), g.face_particle[1].data(),
-                                         g.face_particle[2].data()};
-  mark_near<FaceLanes>(in, words.faces, g.face_count, corner, [&](std::size_t f) {
-    return FaceLanes(places(x, corner[0], f), places(x, corner[1], f), places(x, corner[2], f));
-  });
-}
-
-/// Of the sets that are marked.
-void list_all(const CapsuleCandidates& in) {
-  CapsuleCandidateColumns& out = *in.candidates;
-  const FeatureWords words(*in.garment);
-  const std::size_t first_word[] = {words.particles, words.edges, words.faces, words.end};
-  const std::uint64_t* marked = out.marked.data();
-  std::uint32_t* feature = out.feature.data();
-  std::uint32_t used = 0;
-  for (std::uint32_t c = 0; c < in.capsule_count; ++c, marked += words.end) {
-    for (const FeatureKind kind : kFeatureKinds) {
-      const std::uint64_t* begin = marked + first_word[static_cast<std::size_t>(kind)];
-      const std::uint64_t* end = marked + first_word[static_cast<std::size_t>(kind) + 1];
-      NearFeatures& near = out.of(c, kind);
-      near = {.begin = used, .count = 0};
-      for (const std::uint64_t* word = begin; word != end; ++word) {
-        near.count += static_cast<std::uint32_t>(std::popcount(*word));
-      }
-      const std::uint32_t whole_lanes = (near.count + kLanes - 1) / kLanes * kLanes;
-      if (used + whole_lanes > out.feature.size()) {
-        near = {.begin = NearFeatures::kAll, .count = count_of(*in.garment, kind)};
-        continue;
-      }
-      for (const std::uint64_t* word = begin; word != end; ++word) {
-        const auto first = static_cast<std::uint32_t>(64 * (word - begin));
-        for (std::uint64_t rest = *word; rest != 0; rest &= rest - 1) {
-          feature[used++] = first + static_cast<std::uint32_t>(std::countr_zero(rest));
-        }
-      }
-      for (; used != near.begin + whole_lanes; ++used) feature[used] = feature[near.begin];
-    }
+  for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
+    in.candidates->end[c] = in.candidates->lists_begin(c, in.capsule_count);
   }
+  list_near<Vec3Lanes>(NearLists<1>{in, FeatureKind::kParticle, {}},
+                       [&](std::size_t i) { return load(in.position, i); });
+  const NearLists<2> edges{in, FeatureKind::kEdge, {g.edge_particle[0].data(), g.edge_particle[1].data()}};
+  list_near<EdgeLanes>(
+      edges, [&](std::size_t e) { return EdgeLanes(places(x, edges.corner[0], e), places(x, edges.corner[1], e)); });
+  const auto& corner = g.face_particle;
+  const NearLists<3> faces{in, FeatureKind::kFace, {corner[0].data(), corner[1].data(), corner[2].data()}};
+  list_near<FaceLanes>(faces, [&](std::size_t f) {
+    return FaceLanes(places(x, faces.corner[0], f), places(x, faces.corner[1], f), places(x, faces.corner[2], f));
+  });
 }
 
 }  // namespace
 
 bool CapsuleCandidates::validate() const {
-  return garment != nullptr && position.x != nullptr && previous.x != nullptr &&
-         (capsules != nullptr || capsule_count == 0) && thickness >= 0.0f && packed != nullptr &&
-         candidates != nullptr && candidates->holds(*garment, capsule_count);
+  return garment != nullptr && position.x != nullptr && packed != nullptr &&
+         (capsules != nullptr || capsule_count == 0) && thickness >= 0.0f && margin >= 0.0f && candidates != nullptr &&
+         candidates->holds(*garment, capsule_count);
 }
 
 void CapsuleCandidates::run() const {
   run_wide(widest_vectors(), [this] {
     CapsuleCandidateColumns& out = *candidates;
     const std::uint32_t count = garment->particle_count;
-    const float margin = contact_margin_in_kernel(position, previous, count);
-    const bool stale =
-        out.garment != garment || out.thickness != thickness || !same_capsules(*this) || is_stale(*this, margin);
+    const bool stale = out.garment != garment || out.thickness != thickness || !same_capsules(*this) || is_stale(*this);
     if (!stale) return;
 
     for (std::uint32_t i = 0; i < count; i += kLanes) store(load(position, i), out.anchor.view(), i);
     std::copy_n(capsules, capsule_count, out.sought.begin());
     out.garment = garment, out.sought_count = capsule_count, out.thickness = thickness;
     out.margin = margin + kSkin + kLaneRounding;
-    pack(position, nullptr, count, packed);
-    mark_all(*this);
     list_all(*this);
   });
 }

@@ -11,19 +11,19 @@ namespace pleat {
 /// they lack nothing: while no particle has moved against a core by more than the skin, less what contact_margin has
 /// grown by, or by more than all its features that are not listed are away, as far as kFar. That holds from tick to
 /// tick too, where a worker has no other cloth.
-/// Reads:  garment edges, faces; position (predicted), previous (P) m; capsules, ascending by index
-/// Writes: candidates; packed
+/// Reads:  garment edges, faces; position (predicted) (P) m, packed too; capsules, ascending by index
+/// Writes: candidates
 /// Cost:   O(P capsules) where lists still hold, else O((P + E + F) capsules); no allocation.
 /// Errors: none.
 struct CapsuleCandidates {
   const Garment* garment = nullptr;
-  ConstVec3View position;  // predicted
-  ConstVec3View previous;  // when the substep began
+  ConstVec3View position;        // predicted
+  const Vec4* packed = nullptr;  // the same
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   float thickness = 0.0f;  // m
+  float margin = 0.0f;     // m, contact_margin
   CapsuleCandidateColumns* candidates = nullptr;
-  Vec4* packed = nullptr;  // scratch, (P) padded
 
   static constexpr float kSkin = 0.02f, kFar = 0.06f;  // m
 

@@ -18,23 +18,22 @@ namespace pleat {
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
-/// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; capsules; candidates, of these
-/// Writes: contacts, added to; stats.contacts_dropped; blocks, packed
-/// Cost:   O(candidates), no allocation. Errors: none; features without extent make finite rows or none.
+/// Reads:  garment edges, faces; position and inverse mass, previous (P) m, 1/kg, packed; capsules; candidates, of
+/// these Writes: contacts, added to; stats.contacts_dropped; blocks Cost:   O(candidates), no allocation. Errors: none;
+/// features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
-  ConstVec3View position;  // predicted
-  ConstVec3View previous;  // when the substep began
-  const float* inverse_mass = nullptr;
+  const Vec4* position = nullptr;  // predicted, and w, inverse mass
+  const Vec4* previous = nullptr;  // when the substep began
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   float thickness = 0.0f;  // m
+  float margin = 0.0f;     // m, contact_margin
   float friction = 0.0f;
   float dt = 0.0f;  // s, of the substep
   const CapsuleCandidateColumns* candidates = nullptr;
   ContactList contacts;
   CapsuleBlock* blocks = nullptr;  // scratch, capsule_blocks(capsule_count)
-  Vec4* packed = nullptr;          // scratch, (P) padded
 
   bool validate() const;
   void run(Stats& stats) const;

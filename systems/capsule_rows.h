@@ -18,11 +18,11 @@ inline constexpr float kLeastRelaxation = 0.01f;
 /// Places found near one capsule, until there are eight to make rows of.
 struct NearPlaces {
   static constexpr std::uint32_t kRoom = 3 * kLanes;  // seven that were left and what eight faces may add
-  std::uint32_t particle[3][kRoom];
+  Vec4Place particle[3][kRoom];
   float s[kRoom], t[kRoom];  // along an edge, along the core, 0 to 1
   std::uint32_t count = 0;
 
-  PLEAT_KERNEL void add(std::uint32_t i, std::uint32_t j, std::uint32_t k, float along, float along_core) {
+  PLEAT_KERNEL void add(Vec4Place i, Vec4Place j, Vec4Place k, float along, float along_core) {
     particle[0][count] = i, particle[1][count] = j, particle[2][count] = k, s[count] = along, t[count] = along_core;
     ++count;
   }
@@ -47,12 +47,14 @@ struct NearPlaces {
 
 /// Makes the rows of one capsule, among others, against one cloth.
 struct CapsuleRows {
-  const ContactRowMaker& in;
-  const Vec4* packed;  // position of the cloth, m, and inverse mass, 1/kg
+  const Vec4* position;  // of the cloth, m, and w, inverse mass, 1/kg
+  const Vec4* previous;  // m, when the substep began
   const CapsulePose* capsules;
   std::uint32_t capsule_count;
   const CapsuleBlock* blocks;  // the same capsules
-  float thickness;             // of the cloth, m
+  float thickness, friction;   // of the cloth, m
+  float dt;                    // s
+  ContactList contacts;
   const CapsulePose& capsule;
   const Core& core;
   float reach;  // from the core, m
@@ -103,16 +105,16 @@ struct CapsuleRows {
   /// Where up to three particles of each place are and were, their inverse masses and weights.
   template <std::uint32_t kCount>
   struct Corners {
-    const std::uint32_t* particle[kCount];
+    std::uint32_t particle[kCount][kLanes];
     Vec3Lanes now[kCount], before[kCount];
     Lanes inverse_mass[kCount], weight[kCount];
 
     PLEAT_KERNEL Corners(const CapsuleRows& rows, const NearPlaces& places) {
       for (std::uint32_t k = 0; k < kCount; ++k) {
-        particle[k] = places.particle[k];
-        const Vec4Lanes found = gather(rows.packed, particle[k]);
+        for (std::uint32_t lane = 0; lane < kLanes; ++lane) particle[k][lane] = places.particle[k][lane].index();
+        const Vec4Lanes found = gather(rows.position, places.particle[k]);
         now[k] = found.vector, inverse_mass[k] = found.w;
-        before[k] = gather(rows.in.previous, particle[k]);
+        before[k] = gather(rows.previous, places.particle[k]).vector;
       }
     }
   };
@@ -195,14 +197,14 @@ struct CapsuleRows {
     valid &= yielding > 0.0f;
     std::uint32_t rest = bits(valid);
     const Lanes kept = distance - given_up(places, core_there, normal, missing, valid);
-    const Lanes most = dot(normal, carried) + kRecoverySpeed * in.dt;
+    const Lanes most = dot(normal, carried) + kRecoverySpeed * dt;
     yielding = max(yielding, lightest * kLeastYield) / relaxation;
     Lanes share[3]{};
     for (std::uint32_t k = 0; k < kCount; ++k) share[k] = at.inverse_mass[k] * at.weight[k] / yielding;
 
     Four plane[kLanes], motion[kLanes], weights[kLanes], shares[kLanes];
     split(normal, min(most, dot(normal, core_there) + kept), plane);
-    split(step, all(in.friction * capsule.friction), motion);
+    split(step, all(friction * capsule.friction), motion);
     if constexpr (kCount == 2) {
       split({at.weight[0], at.weight[1], Lanes{}}, Lanes{}, weights);
     } else {
@@ -211,11 +213,11 @@ struct CapsuleRows {
     split({share[0], share[1], share[2]}, Lanes{}, shares);
     for (; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(rest));
-      if (*in.contacts.count == in.contacts.capacity) {
+      if (*contacts.count == contacts.capacity) {
         ++stats.contacts_dropped;
         continue;
       }
-      ContactRow& row = in.contacts.rows[(*in.contacts.count)++];
+      ContactRow& row = contacts.rows[(*contacts.count)++];
       for (std::uint32_t p = 0; p < 4; ++p) row.particle[p] = p < 3 ? at.particle[std::min(p, kCount - 1)][k] : 0;
       put(weights[k], offsetof(ContactRow, weight), row);
       put(plane[k], offsetof(ContactRow, normal), row);

@@ -7,7 +7,7 @@
 namespace pleat {
 
 bool ContactFriction::validate() const {
-  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && previous.x != nullptr &&
+  return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && previous != nullptr &&
          longest >= 0.0f && position != nullptr;
 }
 

@@ -11,13 +11,13 @@ namespace pleat {
 /// the body since the substep began, up to friction * push is taken back, push being how far the row has pushed.
 ///   x_i -= min(1, mu push / |r|) w_i b_i / (sum of w b^2) r
 /// Run again, it takes back what is left of friction * push, and only where r is `longest` or less.
-/// Reads:  contacts; previous (P) m, when the substep began
+/// Reads:  contacts; previous (P) m, packed, when the substep began
 /// Writes: position (P) m, packed; rubbed of each row
 /// Cost:   O(rows), no allocation. Errors: none.
 /// Runs after the sweeps and before a last CollisionResponse, since it may move a point against another row.
 struct ContactFriction {
   ContactList contacts;
-  ConstVec3View previous;
+  const Vec4* previous = nullptr;
   float longest = std::numeric_limits<float>::infinity();  // slip, m
   Vec4* position = nullptr;
 

@@ -16,14 +16,13 @@ PLEAT_KERNEL void find_ways(const Vec4* place, const EdgeSlots& slots, const Vec
 }  // namespace
 
 bool EdgeWays::validate() const {
-  return garment != nullptr && previous.x != nullptr && packed != nullptr && packed->holds(garment->particle_count) &&
+  return garment != nullptr && previous != nullptr && previous->size() > garment->slots.empty_place + 1 &&
          way.x != nullptr;
 }
 
 void EdgeWays::run(VectorSet set) const {
   run_wide(set, [this] {
-    Vec4* place = packed->position.data();
-    pack(previous, nullptr, garment->particle_count, place);
+    Vec4* place = previous->data();
     const std::uint32_t empty = garment->slots.empty_place;
     place[empty] = place[empty + 1] = {};
     find_ways(place, garment->slots, way);

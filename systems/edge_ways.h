@@ -9,13 +9,12 @@ namespace pleat {
 
 /// way = x_j - x_i, from the first end of every edge that has a slot to its second, and of every edge of a coarse level
 /// behind these, once for all passes of a substep that pull along it (pull_direction.h).
-/// Reads:  garment slots and coarse levels; previous (P) m, where the substep began
-/// Writes: way (garment.way_count) m; packed, scratch
+/// Reads:  garment slots and coarse levels; previous (P) m, packed, where the substep began
+/// Writes: way (garment.way_count) m; the two places behind previous
 /// Cost:   O(P + ways), no allocation. Errors: none.
 struct EdgeWays {
   const Garment* garment = nullptr;
-  ConstVec3View previous;
-  Vec4Columns* packed = nullptr;  // holds (P)
+  Column<Vec4>* previous = nullptr;  // (P) and two places more
   Vec3View way;
 
   bool validate() const;

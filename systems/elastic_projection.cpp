@@ -13,7 +13,7 @@ PLEAT_KERNEL void project(const ElasticProjection& in, VectorSet set) {
   const EdgeLine straight = in.law.straight(), buckled = in.law.buckled();
   const float dt2 = in.dt * in.dt, stiff = straight.stiffness * dt2, less_stiff = buckled.stiffness * dt2;  // kg
   const float damped = in.damping_rate * in.dt;
-  for_each_edge(in.garment->slots, in.way, in.packed->position, set, [&](const auto& edge) {
+  for_each_edge(in.garment->slots, in.way, *in.position, set, [&](const auto& edge) {
     const auto a = edge.end(0), b = edge.end(1);
     const auto d = b.vector - a.vector, before = edge.way();
     const auto rest = edge.rest_length(), l2 = dot(d, d), l = sqrt(l2), inertia = max(rest * l, decltype(l){} + kTiny);
@@ -34,16 +34,14 @@ PLEAT_KERNEL void project(const ElasticProjection& in, VectorSet set) {
 }  // namespace
 
 bool ElasticProjection::validate() const {
-  return garment != nullptr && inverse_mass != nullptr && way.x != nullptr && position.x != nullptr &&
-         law.stiffness > 0.0f && law.buckling >= 0.0f && damping_rate >= 0.0f && dt > 0.0f && packed != nullptr &&
-         packed->holds(garment->particle_count);
+  return garment != nullptr && way.x != nullptr && position != nullptr &&
+         position->size() > garment->slots.empty_place + 1 && law.stiffness > 0.0f && law.buckling >= 0.0f &&
+         damping_rate >= 0.0f && dt > 0.0f;
 }
 
 void ElasticProjection::run(VectorSet set) const {
   run_wide(set, [&] {
-    pack(position, inverse_mass, garment->particle_count, packed->position.data());
     for (std::uint32_t pass = 0; pass < passes; ++pass) project(*this, set);
-    unpack(packed->position.data(), garment->particle_count, position);
   });
 }
 

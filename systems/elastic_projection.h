@@ -18,17 +18,15 @@ namespace pleat {
 /// For soft edges that is their force, for stiff ones the rest length; it never overshoots. Momentum is kept. An edge
 /// that would end past its buckling is solved on that line of its law. Each further pass adds as
 /// much stiffness and damping again, for passes keep no multipliers.
-/// Reads:  garment slots; inverse_mass (P) 1/kg; way (S) m: edge_ways.h
-/// Writes: position (P) m; packed, scratch.  Cost: O(P + S passes), no allocation.  Errors: none.
+/// Reads:  garment slots; way (S) m: edge_ways.h
+/// Writes: position (P) m, packed.  Cost: O(S passes), no allocation.  Errors: none.
 struct ElasticProjection {
   const Garment* garment = nullptr;
-  const float* inverse_mass = nullptr;
   EdgeLaw law;                // stiffness > 0
   float damping_rate = 0.0f;  // 1/s
   float dt = 0.0f;            // s
   ConstVec3View way;
-  Vec3View position;
-  Vec4Columns* packed = nullptr;  // holds (P)
+  Column<Vec4>* position = nullptr;  // (P) and two places more
   std::uint32_t passes = 1;
 
   bool validate() const;

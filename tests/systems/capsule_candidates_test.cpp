@@ -56,29 +56,28 @@ struct Walk {
   CapsuleCandidates candidates() {
     return {&cloth.garment,
             cloth.position.view(),
-            cloth.previous.view(),
+            cloth.packed_position(),
             capsules.data(),
             static_cast<std::uint32_t>(capsules.size()),
             kThickness,
-            &cloth.candidates,
-            cloth.scratch.data()};
+            cloth.margin(),
+            &cloth.candidates};
   }
   std::vector<ContactRow> rows() {
     cloth.row_count = 0;
     Stats stats;
     CapsuleDetection{&cloth.garment,
-                     cloth.position.view(),
-                     cloth.previous.view(),
-                     cloth.inverse_mass.data(),
+                     cloth.packed_position(),
+                     cloth.packed_previous(),
                      capsules.data(),
                      static_cast<std::uint32_t>(capsules.size()),
                      kThickness,
+                     cloth.margin(),
                      0.5f,
                      kDt,
                      &cloth.candidates,
                      cloth.contacts(),
-                     cloth.blocks.data(),
-                     cloth.scratch.data()}
+                     cloth.blocks.data()}
         .run(stats);
     return {cloth.rows.begin(), cloth.rows.begin() + cloth.row_count};
   }
@@ -151,7 +150,7 @@ TEST(CapsuleCandidates, FarCornersComeNear) {
 TEST(CapsuleCandidates, WhatHasNoRoomIsLookedAtAsAWhole) {
   for (const std::size_t room : {0, 8, 40}) {
     Walk walk;
-    walk.cloth.candidates.feature.resize(room);
+    walk.cloth.candidates.corner.resize(room);
     walk.swing = 3.0f, walk.tremble = 0.002f;
     int whole = 0;
     for (int step = 0; step < 20; ++step) {

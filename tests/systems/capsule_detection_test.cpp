@@ -22,18 +22,17 @@ CapsuleDetection detection(ContactCloth& cloth, const std::vector<CapsulePose>& 
   list_everything(cloth.garment, static_cast<std::uint32_t>(capsules.size()), cloth.candidates);
   cloth.blocks.resize(capsule_blocks(capsules.size()));
   return {&cloth.garment,
-          cloth.position.view(),
-          cloth.previous.view(),
-          cloth.inverse_mass.data(),
+          cloth.packed_position(),
+          cloth.packed_previous(),
           capsules.data(),
           static_cast<std::uint32_t>(capsules.size()),
           kThickness,
+          cloth.margin(),
           0.5f,
           kDt,
           &cloth.candidates,
           cloth.contacts(),
-          cloth.blocks.data(),
-          cloth.scratch.data()};
+          cloth.blocks.data()};
 }
 
 void respond(ContactCloth& cloth, int passes, FaceResponse response = FaceResponse::kWeighted) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kDt = 0.002f, kThickness = 0.005f, kGravity = 9.81f;
 
-ContactFriction friction_of(ContactCloth& c) { return {.contacts = c.contacts(), .previous = c.previous.view()}; }
+ContactFriction friction_of(ContactCloth& c) { return {.contacts = c.contacts(), .previous = c.packed_previous()}; }
 
 /// A particle on a plane through the origin that is tilted about z.
 struct Incline {

@@ -12,6 +12,7 @@
 #include "components/contacts.h"
 #include "components/garment.h"
 #include "components/lanes.h"
+#include "systems/contact_row.h"
 
 namespace pleat::test {
 
@@ -34,7 +35,7 @@ struct ContactCloth {
   Column<float> inverse_mass{memory()};
   CapsuleCandidateColumns candidates{memory()};
   Column<CapsuleBlock> blocks{memory()};
-  Column<Vec4> scratch{memory()};
+  Column<Vec4> packed_now{memory()}, packed_before{memory()};
   std::vector<ContactRow> rows = std::vector<ContactRow>(4096);
   std::uint32_t row_count = 0;
 
@@ -43,7 +44,7 @@ struct ContactCloth {
       : garment(build_garment({positions, triangles, {}, pins, {}}, memory())) {
     for (Vec3Column* c : {&position, &previous, &velocity, &predicted, &force}) c->resize(positions.size());
     inverse_mass.resize(positions.size());
-    scratch.resize(positions.size());
+    packed_now.resize(positions.size()), packed_before.resize(positions.size());
     for (std::uint32_t i = 0; i < garment.particle_count; ++i) {
       put(i, positions[i], positions[i]);
       inverse_mass[i] = garment.pinned[i] != 0 ? 0.0f : 1000.0f;
@@ -53,6 +54,15 @@ struct ContactCloth {
     position.view().set(i, now);
     previous.view().set(i, before);
   }
+  const Vec4* packed_position() {
+    pack(position.view(), inverse_mass.data(), inverse_mass.size(), packed_now.data());
+    return packed_now.data();
+  }
+  const Vec4* packed_previous() {
+    pack(previous.view(), nullptr, inverse_mass.size(), packed_before.data());
+    return packed_before.data();
+  }
+  float margin() const { return contact_margin(position.view(), previous.view(), garment.particle_count); }
   Vec3 x(std::uint32_t i) const { return position.view()[i]; }
   /// system.run(...) on the packed positions.
   template <class System, class... Counters>

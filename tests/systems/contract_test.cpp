@@ -111,7 +111,7 @@ const Case kCases[] = {
      {"position", "velocity"}},
     {"ElasticProjection",
      [](Sheet& s) {
-       ElasticProjection{&s.garment, s.inverse_mass, {30.0f}, 4.0f, kDt, s.ways(), s.position, &s.packed}.run();
+       s.run_packed(ElasticProjection{&s.garment, {30.0f}, 4.0f, kDt, s.ways(), &s.packed.position});
      },
      {"position"}},
     {"ImplicitIntegration",

@@ -13,7 +13,8 @@ TEST(EdgeWays, LeadFromEndToEnd) {
   const Garment& g = sheet.garment;
   for (const VectorSet set : kVectorSets) {
     if (set > widest_vectors()) continue;
-    EdgeWays{&g, sheet.previous, &sheet.packed, sheet.edge_way.view()}.run(set);
+    pack(sheet.previous, nullptr, sheet.count, sheet.packed.previous.data());
+    EdgeWays{&g, &sheet.packed.previous, sheet.edge_way.view()}.run(set);
     std::uint32_t edges = 0;
     for (std::uint32_t s = 0; s < g.slots.count; ++s) {
       const std::uint32_t i = g.slots.particle(0, s), j = g.slots.particle(1, s);
@@ -42,14 +43,16 @@ TEST(EdgeWays, ThoseOfCoarseLevelsFollow) {
 
 TEST(EdgeWays, RefusesToRunWithAFieldMissing) {
   Sheet sheet(make_grid({.rows = 2, .columns = 2}));
-  const EdgeWays good{&sheet.garment, sheet.previous, &sheet.packed, sheet.edge_way.view()};
+  const EdgeWays good{&sheet.garment, &sheet.packed.previous, sheet.edge_way.view()};
   ASSERT_TRUE(good.validate());
   EdgeWays bad = good;
   bad.garment = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.previous = {};
+  bad = good, bad.previous = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.packed = nullptr;
+  bad = good, bad.previous = &sheet.packed.force;
+  EXPECT_TRUE(bad.validate());
+  sheet.packed.force.resize(sheet.count);
   EXPECT_FALSE(bad.validate());
   bad = good, bad.way = {};
   EXPECT_FALSE(bad.validate());

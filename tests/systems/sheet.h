@@ -60,7 +60,8 @@ struct Sheet {
 
   /// Where the edges point at `previous`.
   ConstVec3View ways() {
-    EdgeWays{&garment, previous, &packed, edge_way.view()}.run();
+    pack(previous, nullptr, count, packed.previous.data());
+    EdgeWays{&garment, &packed.previous, edge_way.view()}.run();
     return edge_way.view();
   }
   /// system.run(...) on the packed positions.
