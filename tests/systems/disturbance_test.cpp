@@ -87,6 +87,12 @@ TEST_F(DisturbanceTest, MeshesAndPlanesToo) {
   EXPECT_TRUE(d.run());
   mesh.previous.view().set(0, {0, 2, 0});
   EXPECT_FALSE(d.run());
+  mesh.thickness = 1.96f;
+  EXPECT_TRUE(d.run());
+  mesh.thickness = 0.0f, mesh.bow = 1.96f;
+  EXPECT_TRUE(d.run());
+  mesh.enabled = false;
+  EXPECT_FALSE(d.run());
   plane.next.position = {0, -1, 0};
   EXPECT_TRUE(d.run());
 }

@@ -86,6 +86,34 @@ TEST_F(EnergyCheckTest, EachSourceAddsTwiceTheSpeedThatItCanGive) {
   capsules.enabled.resize(1);
   capsules.next_b.view().set(0, {0.3f, 0, 0.4f});  // 25 m/s
   EXPECT_FLOAT_EQ(bound().run(), kAny + 50.0f);
+  PlaneCollider plane;
+  plane.next.position = {0, 0.6f, 0};  // 30 m/s
+  b = bound(), b.planes = {&plane, 1};
+  EXPECT_FLOAT_EQ(b.run(), kAny + 60.0f);
+  MeshCollider mesh(std::pmr::new_delete_resource());
+  mesh.previous.resize(2), mesh.next.resize(2);
+  mesh.next.view().set(1, {0.7f, 0, 0}), mesh.bow = 0.1f;  // 40 m/s
+  const MeshCollider* meshes[] = {&mesh};
+  b.meshes = meshes;
+  EXPECT_FLOAT_EQ(b.run(), kAny + 80.0f);
+}
+
+TEST_F(EnergyCheckTest, AllHingesMayHaveBeenBentByHalfATurn) {
+  SpeedBound b = bound();
+  b.bend_stiffness = 0.5f;
+  const Garment& g = sheet.garment;
+  float twice_energy = 0.0f, moving = 0.0f;
+  for (std::uint32_t h = 0; h < g.hinge_count; ++h) twice_energy += 0.5f * g.hinge_bound[h] * 9.8696044f;
+  for (std::uint32_t i = 1; i < sheet.count; ++i) moving += sheet.mass[i];
+  EXPECT_NEAR(b.run() - kAny, 2.0f * std::sqrt(twice_energy / moving), 1e-4f);
+}
+
+TEST_F(EnergyCheckTest, WhatIsTooFarFromItsPinIsExpectedToSnapBack) {
+  sheet = Sheet(make_grid({.rows = 12, .columns = 12}), kPins);
+  const float longest = std::ranges::max(sheet.garment.tether_length);
+  ASSERT_GT(longest, 1.4f);  // m
+  for (std::uint32_t i = 0; i < sheet.count; ++i) sheet.position.set(i, sheet.position[i] * 1.1f);
+  EXPECT_NEAR(bound().run(), kAny + 2.0f * 0.1f * longest / 0.002f, 0.1f);
 }
 
 TEST_F(EnergyCheckTest, WhatIsStretchedIsExpectedToSnapBack) {

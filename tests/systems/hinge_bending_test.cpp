@@ -206,6 +206,16 @@ TEST(HingeBending, IsSoftenedToWhatAStepCanCarry) {
   EXPECT_GT(length(stiff.force[3]), 0.0f);
 }
 
+TEST(HingeBending, TheStiffestStepTakesAHingeAFifthOfTheWayToRest) {
+  const float dt = 1.0f / 60;
+  Sheet sheet = hinge();
+  sheet.position.add(3, {0, 1e-3f, 0});
+  const double before = angle_of(sheet, 0);
+  job(sheet, 1e6f, 0.0f, dt).run();
+  for (std::uint32_t i = 0; i < 4; ++i) sheet.position.add(i, sheet.force[i] * (dt * dt * sheet.inverse_mass[i]));
+  EXPECT_NEAR(angle_of(sheet, 0) / before, 0.8, 1e-3);
+}
+
 TEST(HingeBending, FaceWithoutAreaIsPassedOver) {
   Sheet sheet = hinge();
   sheet.position.set(3, sheet.position[0]);
