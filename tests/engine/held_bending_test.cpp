@@ -1,4 +1,7 @@
 // Soft bending is found 120 times a second and held between.
+#include <algorithm>
+#include <limits>
+
 #include "tests/engine/scene.h"
 
 namespace pleat {
@@ -64,6 +67,19 @@ TEST(HeldBending, BeginsAnewWhereTheClothIsChangedOrCarriedAway) {
   EXPECT_EQ(w.step(4 * kSubstep), "fhhf");
   std::vector<float> state = w.scene.particles(w.cloth);
   must(call::cloth_write_particles(w.scene, w.cloth, state.data(), state.data() + 3 * 64, 64));
+  EXPECT_EQ(w.step(4 * kSubstep), "fhhf");
+}
+
+TEST(HeldBending, ATickThatBreaksLeavesNeitherItNorInnerFrictionBehind) {
+  Watched w;
+  const Vec3Column& held = w.scene.inside().held;
+  const auto pulls = [&] { return std::any_of(held.y.begin(), held.y.end(), [](float y) { return y != 0.0f; }); };
+  EXPECT_EQ(w.step(4 * kSubstep), "fhhf");
+  EXPECT_TRUE(pulls());
+  w.scene.inside().particles.velocity.y[20] = std::numeric_limits<float>::infinity();
+  w.step(4 * kSubstep);
+  EXPECT_EQ(w.scene.stats().fallbacks, 1u);
+  EXPECT_FALSE(pulls());
   EXPECT_EQ(w.step(4 * kSubstep), "fhhf");
 }
 

@@ -1,4 +1,5 @@
 // A cloth at rest sleeps, and wakes when anything that it depends on changes.
+#include <algorithm>
 #include <functional>
 
 #include "tests/engine/scene.h"
@@ -31,6 +32,7 @@ TEST(Sleep, AClothAtRestStaysAsItIsAndTakesNoSubsteps) {
   Asleep scene;
   ASSERT_TRUE(scene.asleep());
   const std::vector<float> particles = scene.particles(scene.id), drawn = scene.vertices(scene.id);
+  EXPECT_TRUE(std::all_of(particles.begin() + 3 * 16, particles.end(), [](float v) { return v == 0.0f; }));
   scene.step(30);
   EXPECT_TRUE(scene.asleep());
   EXPECT_EQ(scene.info(scene.id).substeps, 0u);
