@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
-#include <queue>
 #include <set>
+#include <utility>
 
 #include "components/walk.h"
 
@@ -46,34 +45,59 @@ void order_edges(std::uint32_t particle_count, std::span<const std::uint32_t> fr
   std::transform(places.begin(), places.end(), edges.begin(), [](const Place& place) { return place.edge; });
 }
 
+namespace {
+
+/// Which edges meet which at a particle, one after the other.
+struct Chains {
+  /// For each edge: those that come next at its ends, or kEmptySlot; how many come before it there, 0 to 2; and how
+  /// many the longest chain has that begins with it.
+  std::vector<EdgeEnds> next;
+  std::vector<std::uint32_t> before, length;
+
+  Chains(std::uint32_t particle_count, std::span<const EdgeEnds> edges)
+      : next(edges.size()), before(edges.size()), length(edges.size()) {
+    std::vector<std::uint32_t> first(particle_count, kEmptySlot);  // at each particle, of the edges seen so far
+    for (auto e = static_cast<std::uint32_t>(edges.size()); e-- > 0;) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        std::uint32_t& at = first[edges[e][k]];
+        if (at != kEmptySlot) length[e] = std::max(length[e], length[at]), ++before[at];
+        next[e][k] = std::exchange(at, e);
+      }
+      ++length[e];
+    }
+  }
+};
+
+}  // namespace
+
 std::vector<std::uint32_t> slots_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges,
                                     std::uint32_t lanes) {
-  std::vector<std::vector<std::uint32_t>> waiting(particle_count);  // at each particle, the next one last
-  for (std::uint32_t e = static_cast<std::uint32_t>(edges.size()); e-- > 0;) {
-    for (const std::uint32_t i : edges[e]) waiting[i].push_back(e);
+  const auto count = static_cast<std::uint32_t>(edges.size());
+  Chains chains(particle_count, edges);
+  std::set<std::uint32_t> ready;                             // those that may come next
+  std::set<std::pair<std::uint32_t, std::uint32_t>> urgent;  // the same by chain, the shortest first
+  const auto add = [&](std::uint32_t e) { ready.insert(e), urgent.insert({chains.length[e], e}); };
+  for (std::uint32_t e = 0; e < count; ++e) {
+    if (chains.before[e] == 0) add(e);
   }
-  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;
-  const auto is_next = [&](std::uint32_t e) {
-    return waiting[edges[e][0]].back() == e && waiting[edges[e][1]].back() == e;
-  };
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    if (is_next(e)) ready.push(e);
-  }
-  std::vector<std::uint32_t> slots;
-  while (!ready.empty()) {
-    const std::size_t begin = slots.size();
-    for (; slots.size() < begin + lanes && !ready.empty(); ready.pop()) slots.push_back(ready.top());
-    for (std::size_t s = begin, end = slots.size(); s < end; ++s) {
-      for (const std::uint32_t i : edges[slots[s]]) waiting[i].pop_back();
-    }
-    std::set<std::uint32_t> next;  // an edge may be found at both its ends
-    for (std::size_t s = begin, end = slots.size(); s < end; ++s) {
-      for (const std::uint32_t i : edges[slots[s]]) {
-        if (!waiting[i].empty() && is_next(waiting[i].back())) next.insert(waiting[i].back());
+  std::vector<std::uint32_t> slots, stage;
+  std::uint32_t stages =
+      urgent.empty() ? 0 : urgent.rbegin()->first;  // that are left: as many as the longest chain has
+  for (std::uint32_t left = count; left != 0; left -= static_cast<std::uint32_t>(stage.size()), --stages) {
+    stage.clear();
+    const auto take = [&](std::uint32_t e) { stage.push_back(e), ready.erase(e), urgent.erase({chains.length[e], e}); };
+    while (!urgent.empty() && urgent.rbegin()->first == stages) take(urgent.rbegin()->second);
+    const std::size_t mean = (left + stages - 1) / stages, wanted = std::max(stage.size(), mean);
+    const std::size_t whole = (wanted + lanes - 1) / lanes * lanes;
+    while (stage.size() < whole && !ready.empty()) take(*ready.begin());
+    std::sort(stage.begin(), stage.end());
+    for (const std::uint32_t e : stage) {
+      for (const std::uint32_t next : chains.next[e]) {
+        if (next != kEmptySlot && --chains.before[next] == 0) add(next);
       }
     }
-    for (const std::uint32_t e : next) ready.push(e);
-    slots.resize(begin + lanes, kEmptySlot);
+    slots.insert(slots.end(), stage.begin(), stage.end());
+    slots.resize((slots.size() + lanes - 1) / lanes * lanes, kEmptySlot);
   }
   return slots;
 }

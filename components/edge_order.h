@@ -20,7 +20,9 @@ inline constexpr std::uint32_t kEmptySlot = 0xffffffffu;
 
 /// Edges, by index, in runs of `lanes` that share no particle, the last places of some empty. An edge comes after all
 /// that are before it in `edges` and meet it at a particle: solved run by run, each at once, they end as they would one
-/// after the other. Of those that may come next a run takes the first. Cost: O(P + E log E).
+/// after the other. A run that another waits for takes a processor long, runs side by side do not: so runs come in
+/// stages of some that do not wait for each other, as few stages as the longest chain has edges that meet one after the
+/// other (list scheduling; T. Hu, "Parallel Sequencing and Assembly Line Problems", 1961). Cost: O(P + E log E).
 std::vector<std::uint32_t> slots_of(std::uint32_t particle_count, std::span<const EdgeEnds> edges, std::uint32_t lanes);
 
 }  // namespace pleat

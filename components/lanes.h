@@ -167,8 +167,9 @@ PLEAT_KERNEL void split(const Vec3Lanes& vector, const Lanes& w, Four (&each)[kL
   Lanes pairs[4];
   transpose(places, pairs);
   for (std::size_t k = 0; k < 4; ++k) {
-    each[k] = __builtin_shufflevector(pairs[k], pairs[k], 0, 1, 2, 3);
-    each[k + 4] = __builtin_shufflevector(pairs[k], pairs[k], 4, 5, 6, 7);
+    Four halves[2];  // of shuffles GCC 12 makes one more each
+    std::memcpy(halves, &pairs[k], sizeof halves);
+    each[k] = halves[0], each[k + 4] = halves[1];
   }
 }
 PLEAT_KERNEL void pack(const Vec3Lanes& vector, const Lanes& w, Vec4* to) {

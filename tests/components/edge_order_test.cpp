@@ -96,22 +96,31 @@ TEST(EdgeOrder, SlotsKeepEdgesThatMeetInOrderAndAreNearlyFull) {
   }
 }
 
-TEST(EdgeOrder, ManyRunsOfARingNeedNotWaitForTheOneBefore) {
-  Sheet sheet(5, 16);
-  order_edges(80, sheet.first_row(), sheet.edges);
-  const std::vector<std::uint32_t> slots = slots_of(80, sheet.edges, 8);
-  std::set<std::uint32_t> before;
-  std::size_t waiting = 0;
-  for (std::size_t begin = 0; begin < slots.size(); begin += 8) {
-    std::set<std::uint32_t> met;
-    for (std::size_t s = begin; s < begin + 8; ++s) {
-      if (slots[s] != kEmptySlot) met.insert(sheet.edges[slots[s]].begin(), sheet.edges[slots[s]].end());
-    }
-    const auto is_met = [&](std::uint32_t i) { return met.contains(i); };
-    waiting += std::any_of(before.begin(), before.end(), is_met) ? 1 : 0;
-    before = met;
+/// How many things wait for each other at most, one after the other: each a few of `edges`, in order.
+std::uint32_t longest_wait(std::uint32_t particles, const std::vector<std::vector<EdgeEnds>>& things) {
+  std::vector<std::uint32_t> waits(particles);
+  for (const std::vector<EdgeEnds>& edges : things) {
+    std::uint32_t most = 0;
+    for (const auto& [i, j] : edges) most = std::max({most, waits[i], waits[j]});
+    for (const auto& [i, j] : edges) waits[i] = waits[j] = most + 1;
   }
-  EXPECT_LT(waiting, slots.size() / 8 * 4 / 5) << slots.size() / 8;
+  return *std::max_element(waits.begin(), waits.end());
+}
+
+TEST(EdgeOrder, RunsWaitForEachOtherNoMoreThanTheirEdgesHaveTo) {
+  for (const std::uint32_t columns : {5u, 16u, 40u}) {
+    Sheet sheet(6, columns);
+    order_edges(6 * columns, sheet.first_row(), sheet.edges);
+    std::vector<std::vector<EdgeEnds>> edges, runs;
+    for (const EdgeEnds& edge : sheet.edges) edges.push_back({edge});
+    const std::vector<std::uint32_t> slots = slots_of(6 * columns, sheet.edges, 8);
+    for (std::size_t s = 0; s < slots.size(); ++s) {
+      if (s % 8 == 0) runs.emplace_back();
+      if (slots[s] != kEmptySlot) runs.back().push_back(sheet.edges[slots[s]]);
+    }
+    EXPECT_EQ(longest_wait(6 * columns, runs), longest_wait(6 * columns, edges)) << columns;
+    EXPECT_LT(runs.size(), (sheet.edges.size() + 7) / 8 + longest_wait(6 * columns, edges)) << columns;
+  }
 }
 
 TEST(EdgeOrder, WithNowhereToBeginFewRunsTakeTheWholeSheet) {
