@@ -50,37 +50,22 @@ PLEAT_KERNEL bool is_out_of_room(const CapsuleCandidates& in, const float* room,
   return out != 0.0f;
 }
 
-/// How far the particle has moved that has moved most, m; far where one is not finite.
-PLEAT_KERNEL float longest_motion(const CapsuleCandidates& in) {
-  constexpr float kFarAway2 = 1e30f;
-  const ConstVec3View anchor = in.candidates->anchor.view();
-  return std::sqrt(largest(in.garment->particle_count, [&](std::size_t i) {
-    const Vec3Lanes motion = load(in.position, i) - load(anchor, i);
-    const Lanes motion2 = dot(motion, motion);
-    return motion2 < kFarAway2 ? motion2 : all(kFarAway2);
-  }));
-}
-
 /// Whether a feature that is not listed may be near now.
 PLEAT_KERNEL bool is_stale(const CapsuleCandidates& in) {
-  constexpr float kStraight = 1e-3f, kTurnRounding = 1e-5f;              // m
-  const float skin = in.candidates->margin - kLaneRounding - in.margin;  // the least that any particle has room for
-  const float moved = longest_motion(in);
+  constexpr float kStraight = 5e-4f, kTurnRounding = 1e-5f;  // m
+  const float rest = in.margin + kLaneRounding;
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) {
     const CapsulePose &now = in.capsules[c], &then = in.candidates->sought[c];
-    if (moved + std::max(length(now.a - then.a), length(now.b - then.b)) <= skin) continue;
     const float* room = in.candidates->room_of(*in.garment, c);
-    const Vec3 shift = then.a - now.a;
-    const float turned = length(then.b - now.b - shift);
-    if (turned < kStraight) {
-      const Vec3Lanes back = all(shift);
-      const float taken = turned + in.margin + kLaneRounding;
-      if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return x + back; })) return true;
-    } else {
-      const WayBack back(now, then);
-      const float taken = length(back.at(now.b) - then.b) + kTurnRounding + in.margin + kLaneRounding;
-      if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return back.at(x); })) return true;
-    }
+    // Shifted back, the core is off by no more than half of what its ends have moved apart: mostly near enough.
+    const Vec3 at_a = then.a - now.a, at_b = then.b - now.b;
+    const Vec3Lanes shift = all((at_a + at_b) * 0.5f);
+    const float turned = 0.5f * length(at_b - at_a);
+    if (!is_out_of_room(in, room, turned + rest, [&](const Vec3Lanes& x) { return x + shift; })) continue;
+    if (turned < kStraight) return true;
+    const WayBack back(now, then);
+    const float taken = length(back.at(now.b) - then.b) + kTurnRounding + rest;
+    if (is_out_of_room(in, room, taken, [&](const Vec3Lanes& x) { return back.at(x); })) return true;
   }
   return false;
 }
@@ -114,18 +99,17 @@ struct NearLists {
   void begin(std::uint32_t capsule) const {
     in.candidates->of(capsule, kind) = {.begin = in.candidates->end[capsule], .count = 0};
   }
-  /// Features that have a bit in `near`, the lowest for `first`.
-  void add(std::uint32_t capsule, std::uint32_t first, std::uint64_t near) const {
-    NearFeatures& list = in.candidates->of(capsule, kind);
-    if (near == 0 || list.begin == NearFeatures::kAll) return;
-    std::uint32_t n = list.count;
-    list.count += static_cast<std::uint32_t>(std::popcount(near));
-    if (end_of(list) > in.candidates->lists_end(capsule, in.capsule_count)) {
-      list.begin = NearFeatures::kAll;
-      return;
+  /// Where the corners of the list are, which becomes one of all features where it has no room for so many more.
+  Vec4Place* room_for(std::uint32_t more, std::uint32_t capsule, NearFeatures& list) const {
+    if (list.begin == NearFeatures::kAll) return nullptr;
+    if (end_of({list.begin, list.count + more}) <= in.candidates->lists_end(capsule, in.capsule_count)) {
+      return corners_of(list);
     }
-    Vec4Place* const corners = corners_of(list);
-    for (; near != 0; near &= near - 1) put(first + static_cast<std::uint32_t>(std::countr_zero(near)), n++, corners);
+    list.begin = NearFeatures::kAll;
+    return nullptr;
+  }
+  void put(std::uint32_t feature, std::uint32_t n, Vec4Place* corners) const {
+    for (std::size_t k = 0; k < kCorners; ++k) corners[place(n, k)] = Vec4Place::of(corner_of(feature, k));
   }
   void finish(std::uint32_t capsule) const {
     NearFeatures& list = in.candidates->of(capsule, kind);
@@ -148,9 +132,6 @@ struct NearLists {
     return n / kLanes * kLanes * kCorners + k * kLanes + n % kLanes;
   }
   Vec4Place* corners_of(const NearFeatures& list) const { return in.candidates->corner.data() + list.begin; }
-  void put(std::uint32_t feature, std::uint32_t n, Vec4Place* corners) const {
-    for (std::size_t k = 0; k < kCorners; ++k) corners[place(n, k)] = Vec4Place::of(corner_of(feature, k));
-  }
 };
 
 /// Lists one kind of features, 64 at a time; and what is not listed but nearer than kFar leaves its particles that much
@@ -173,22 +154,29 @@ PLEAT_KERNEL void list_near(const NearLists<kCorners>& lists, const MakeFeatures
       const Core core(in.capsules[c], std::max(within, surface + CapsuleCandidates::kFar));
       float* room = in.candidates->room_of(*in.garment, c);
       float distance2[kBits];
-      std::uint64_t near = 0, far = 0;
+      std::uint64_t far = 0;
       for (std::uint32_t k = 0; k < rest; k += kLanes) {
         const Lanes found2 = distance2_from(core, features.places[k / kLanes]);
         store(found2, distance2 + k);
-        near |= std::uint64_t{bits(found2 < within * within)} << k;
         far |= std::uint64_t{bits(found2 < core.reach2)} << k;
       }
-      for (far &= used & ~near; far != 0; far &= far - 1) {
+      far &= used;
+      NearFeatures& list = in.candidates->of(c, lists.kind);
+      Vec4Place* const listed = lists.room_for(static_cast<std::uint32_t>(std::popcount(far)), c, list);
+      std::uint32_t n = list.count;
+      for (; far != 0; far &= far - 1) {
         const auto k = static_cast<std::uint32_t>(std::countr_zero(far));
+        if (distance2[k] < within * within) {
+          if (listed != nullptr) lists.put(begin + k, n++, listed);
+          continue;
+        }
         const float away = std::sqrt(distance2[k]) - surface;
-        for (std::size_t n = 0; n < kCorners; ++n) {
-          float& left = room[lists.corner_of(begin + k, n)];
+        for (std::size_t corner = 0; corner < kCorners; ++corner) {
+          float& left = room[lists.corner_of(begin + k, corner)];
           left = std::min(left, away);
         }
       }
-      lists.add(c, begin, near & used);
+      list.count = n;
     }
   }
   for (std::uint32_t c = 0; c < in.capsule_count; ++c) lists.finish(c);
