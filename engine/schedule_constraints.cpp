@@ -184,8 +184,8 @@ constexpr Row kRows[] = {
      }},
     {Phase::kContact, "collider_motion", with_capsules,
      [](ClothTick& t) {
-       t.contact_margin = contact_margin(t.position, t.previous, t.garment.particle_count);
-       move_capsules(t, t.settings.thickness + t.contact_margin);
+       t.capsule_margin = capsule_margin(t.position, t.previous, t.garment.particle_count);
+       move_capsules(t, t.settings.thickness + t.capsule_margin);
      }},
     {Phase::kContact, "capsule_candidates", with_capsules,
      [](ClothTick& t) {
@@ -195,7 +195,7 @@ constexpr Row kRows[] = {
                              .capsules = t.worker.capsule_poses.data(),
                              .capsule_count = t.worker.capsule_pose_count,
                              .thickness = t.settings.thickness,
-                             .margin = t.contact_margin,
+                             .margin = t.capsule_margin,
                              .candidates = &t.worker.capsule_candidates});
      }},
     {Phase::kContact, "capsule_detection", with_capsules,
@@ -206,7 +206,7 @@ constexpr Row kRows[] = {
                             .capsules = t.worker.capsule_poses.data(),
                             .capsule_count = t.worker.capsule_pose_count,
                             .thickness = t.settings.thickness,
-                            .margin = t.contact_margin,
+                            .margin = t.capsule_margin,
                             .friction = t.settings.friction,
                             .dt = t.dt,
                             .candidates = &t.worker.capsule_candidates,

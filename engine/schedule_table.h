@@ -41,7 +41,7 @@ struct ClothTick {
   float frame_dt = 0.0f;           // s, of the tick; 0 when the surface is brought up to date between ticks
   std::uint32_t substeps = 1;      // of the tick
   std::uint32_t force_steps = 1;   // of each
-  float contact_margin = 0.0f;     // m, of the present substep, where there are capsules
+  float capsule_margin = 0.0f;     // m, of the present substep, where there are capsules
   std::uint32_t bending_held = 1;  // substeps for which a force of bending acts
   std::uint32_t sweeps_left = 0;   // of the present substep, the present one included
   int stage = 0;                   // of the integrator

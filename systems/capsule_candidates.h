@@ -6,9 +6,9 @@
 
 namespace pleat {
 
-/// Lists, for each capsule, the features of the cloth nearer than thickness + contact_margin + kSkin to its surface, as
+/// Lists, for each capsule, the features of the cloth nearer than thickness + capsule_margin + kSkin to its surface, as
 /// CapsuleDetection looks at them; a face only counts near an end of the core. Lists are left as they are as long as
-/// they lack nothing: while no particle has moved against a core by more than the skin, less what contact_margin has
+/// they lack nothing: while no particle has moved against a core by more than the skin, less what capsule_margin has
 /// grown by, or by more than all its features that are not listed are away, as far as kFar. That holds from tick to
 /// tick too, where a worker has no other cloth.
 /// Reads:  garment edges, faces; position (predicted) (P) m, packed too; capsules, ascending by index
@@ -22,7 +22,7 @@ struct CapsuleCandidates {
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   float thickness = 0.0f;  // m
-  float margin = 0.0f;     // m, contact_margin
+  float margin = 0.0f;     // m, capsule_margin
   CapsuleCandidateColumns* candidates = nullptr;
 
   static constexpr float kSkin = 0.02f, kFar = 0.06f;  // m

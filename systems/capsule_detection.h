@@ -13,7 +13,7 @@
 
 namespace pleat {
 
-/// Adds a row for each candidate nearer than radius + thickness + contact_margin to a capsule's core, at the
+/// Adds a row for each candidate nearer than radius + thickness + capsule_margin to a capsule's core, at the
 /// end of the substep. The normal points to the side on which the feature was when the substep began, so that what has
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
@@ -28,7 +28,7 @@ struct CapsuleDetection {
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   float thickness = 0.0f;  // m
-  float margin = 0.0f;     // m, contact_margin
+  float margin = 0.0f;     // m, capsule_margin
   float friction = 0.0f;
   float dt = 0.0f;  // s, of the substep
   const CapsuleCandidateColumns* candidates = nullptr;

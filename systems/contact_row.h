@@ -9,21 +9,28 @@
 
 namespace pleat {
 
-inline constexpr float kLeastMargin = 0.01f;  // m
+/// How far the particle has moved in the substep that has moved most, m.
+inline float longest_motion(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
+  float motion2 = 0.0f;
+  run_wide(widest_vectors(), [&] {
+    motion2 = largest(count, [&](std::size_t i) {
+      const Vec3Lanes d = load(position, i) - load(previous, i);
+      return dot(d, d);
+    });
+  });
+  return std::sqrt(motion2);
+}
+
+inline constexpr float kLeastMargin = 0.01f, kLeastCapsuleMargin = 0.006f;  // m
 
 /// Rows are made for what is nearer than thickness + margin, so that the sweeps find the plane of whatever a particle
 /// may be moved against: kLeastMargin, or more for a cloth that moves further in the substep. m
-PLEAT_KERNEL float contact_margin_in_kernel(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
-  const float motion2 = largest(count, [&](std::size_t i) {
-    const Vec3Lanes d = load(position, i) - load(previous, i);
-    return dot(d, d);
-  });
-  return std::max(kLeastMargin, std::sqrt(motion2));
-}
 inline float contact_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
-  float margin = 0.0f;
-  run_wide(widest_vectors(), [&] { margin = contact_margin_in_kernel(position, previous, count); });
-  return margin;
+  return std::max(kLeastMargin, longest_motion(position, previous, count));
+}
+/// The same of capsules, which are smooth: rows of what is farther from them never pushed (bench/README.md).
+inline float capsule_margin(ConstVec3View position, ConstVec3View previous, std::uint32_t count) {
+  return std::max(kLeastCapsuleMargin, 0.5f * longest_motion(position, previous, count));
 }
 
 /// A deep start is pushed out at this speed, over many substeps, and not in one snap. m/s

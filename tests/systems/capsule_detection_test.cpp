@@ -210,7 +210,7 @@ TEST(CapsuleDetection, GivesWayToWhicheverCapsulePressesMost) {
       Vec3 away;
       for (;; ++c) {
         t = closest_on_capsule(p, capsules[c]), away = p - lerp(capsules[c].a, capsules[c].b, t);
-        if (length(away) < widest_radius(capsules[c]) + kThickness + kLeastMargin) break;
+        if (length(away) < widest_radius(capsules[c]) + kThickness + kLeastCapsuleMargin) break;
       }
       const float distance = radius_at(capsules[c], t) + kThickness;
       const float given = given_up(capsules, c, p, row.normal, distance - length(away));

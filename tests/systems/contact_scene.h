@@ -62,7 +62,7 @@ struct ContactCloth {
     pack(previous.view(), nullptr, inverse_mass.size(), packed_before.data());
     return packed_before.data();
   }
-  float margin() const { return contact_margin(position.view(), previous.view(), garment.particle_count); }
+  float margin() const { return capsule_margin(position.view(), previous.view(), garment.particle_count); }
   Vec3 x(std::uint32_t i) const { return position.view()[i]; }
   /// system.run(...) on the packed positions.
   template <class System, class... Counters>
