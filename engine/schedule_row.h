@@ -62,7 +62,8 @@ inline void move_capsules(ClothTick& t, float reach) {
                      .t1 = t.t1,
                      .poses = t.worker.capsule_poses.data(),
                      .capacity = static_cast<std::uint32_t>(t.worker.capsule_poses.size()),
-                     .pose_count = &t.worker.capsule_pose_count},
+                     .pose_count = &t.worker.capsule_pose_count,
+                     .sought = &t.capsules_sought},
       t.worker.stats);
 }
 

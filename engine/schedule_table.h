@@ -7,6 +7,7 @@
 
 #include "components/edge_law.h"
 #include "engine/world.h"
+#include "systems/box.h"
 
 namespace pleat {
 
@@ -49,6 +50,7 @@ struct ClothTick {
   bool trouble = false;            // the tick has gone wrong
   bool loose = false;              // a start that is stretched
   bool deep = false;               // a start inside a body, which it is coming out of
+  Box capsules_sought;             // in which the worker's capsules are all that there are in this tick
   double time = 0.0;               // s, when the present substep begins
   Vec3 air;                        // m/s, velocity of the air now
 

@@ -26,6 +26,11 @@ struct Box {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
            b.low.z <= high.z;
   }
+  /// Not what is not finite.
+  bool holds(const Box& b) const {
+    return low.x <= b.low.x && b.high.x <= high.x && low.y <= b.low.y && b.high.y <= high.y && low.z <= b.low.z &&
+           b.high.z <= high.z;
+  }
   /// Of a point, m2; 0 inside.
   float distance2(const Vec3& p) const {
     const Vec3 d{std::max({low.x - p.x, 0.0f, p.x - high.x}), std::max({low.y - p.y, 0.0f, p.y - high.y}),

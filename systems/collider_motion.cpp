@@ -3,26 +3,23 @@
 #include "systems/capsule_shape.h"
 
 namespace pleat {
+namespace {
+
+constexpr float kSkin = 0.1f;  // m, that is sought besides
+
+}  // namespace
+
 bool ColliderMotion::validate() const {
   return capsules != nullptr && bodies != nullptr && position.x != nullptr && poses != nullptr &&
-         pose_count != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 <= t1 && t1 <= 1.0f;
+         pose_count != nullptr && sought != nullptr && reach >= 0.0f && t0 >= 0.0f && t0 <= t1 && t1 <= 1.0f;
 }
 
 void ColliderMotion::run(Stats& stats) const {
-  std::uint32_t count = 0;
-  bodies->for_each_capsule(box_of(position, particle_count).grown(reach), [&](std::uint32_t i) {
-    if (count == capacity) {
-      ++stats.contacts_dropped;
-    } else {
-      poses[count++].index = i;
-    }
-  });
-  // The tree's order depends on its history; a cloth's motion must not.
-  std::sort(poses, poses + count, [](const CapsulePose& p, const CapsulePose& q) { return p.index < q.index; });
-
+  const Box near = box_of(position, particle_count).grown(reach);
+  if (!sought->holds(near)) seek(near.grown(kSkin), stats);
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < *pose_count; ++k) {
     const std::uint32_t i = poses[k].index;
     poses[k] = {.a = lerp(a0[i], a1[i], t1),
                 .b = lerp(b0[i], b1[i], t1),
@@ -34,7 +31,21 @@ void ColliderMotion::run(Stats& stats) const {
                 .index = i};
     drop_swallowed_end(poses[k]);
   }
+}
+
+void ColliderMotion::seek(const Box& box, Stats& stats) const {
+  std::uint32_t count = 0;
+  bodies->for_each_capsule(box, [&](std::uint32_t i) {
+    if (count == capacity) {
+      ++stats.contacts_dropped;
+    } else {
+      poses[count++].index = i;
+    }
+  });
+  // The tree's order depends on its history; a cloth's motion must not.
+  std::sort(poses, poses + count, [](const CapsulePose& p, const CapsulePose& q) { return p.index < q.index; });
   *pose_count = count;
+  *sought = box;
 }
 
 }  // namespace pleat

@@ -3,16 +3,19 @@
 
 #include "components/colliders.h"
 #include "components/stats.h"
+#include "systems/box.h"
 #include "systems/collision_bodies.h"
 
 namespace pleat {
 
-/// Picks the enabled capsules whose swept box comes within `reach` of the cloth's particles and moves them in a
-/// straight line from their previous to their next pose: the substep ends at the fraction t1 of the tick and began at
-/// t0. A world may hold thousands of capsules; a cloth meets its few through Bullet's tree. Runs after integration.
+/// Picks the enabled capsules whose swept box comes within `reach` of the cloth's particles, and some more, and moves
+/// them in a straight line from their previous to their next pose: the substep ends at the fraction t1 of the tick and
+/// began at t0. A world may hold thousands of capsules; a cloth meets its few through Bullet's tree, and keeps them for
+/// the tick while it stays in the box for which they were sought. Runs after integration.
 /// Reads:  capsules, bodies (their tree); position (P) m
-/// Writes: poses (at most `capacity`), ascending by index; pose_count; stats.contacts_dropped
-/// Cost:   O(P + log capsules + hits log hits), no allocation. Errors: none; hits beyond `capacity` are counted.
+/// Writes: poses (at most `capacity`), ascending by index; pose_count; sought; stats.contacts_dropped
+/// Cost:   O(P + hits), and O(log capsules + hits log hits) where they are sought; no allocation.
+/// Errors: none; hits beyond `capacity` are counted.
 struct ColliderMotion {
   const CapsuleColumns* capsules = nullptr;
   const CollisionBodies* bodies = nullptr;
@@ -23,9 +26,13 @@ struct ColliderMotion {
   CapsulePose* poses = nullptr;
   std::uint32_t capacity = 0;
   std::uint32_t* pose_count = nullptr;
+  Box* sought = nullptr;  // no capsule but those of `poses` comes into it in this tick; as made: not sought yet
 
   bool validate() const;
   void run(Stats& stats) const;
+
+ private:
+  void seek(const Box& box, Stats& stats) const;
 };
 
 }  // namespace pleat

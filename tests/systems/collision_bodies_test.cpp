@@ -109,7 +109,9 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
   std::vector<CapsulePose> poses(64);
   std::uint32_t count = 0;
   Stats stats;
-  ColliderMotion motion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.25f, 0.5f, poses.data(), 64, &count};
+  Box sought;
+  ColliderMotion motion{&capsules, &bodies, 3,      cloth.position.view(), 0.5f, 0.25f, 0.5f, poses.data(),
+                        64,        &count,  &sought};
   ASSERT_TRUE(motion.validate());
   motion.run(stats);
   ASSERT_GT(count, 1u);
@@ -124,12 +126,47 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
   }
   EXPECT_EQ(stats.contacts_dropped, 0u);
   const std::uint32_t all = count;
-  motion.capacity = 1;
+  motion.capacity = 1, sought = {};
   motion.run(stats);
   EXPECT_EQ(count, 1u);
   EXPECT_EQ(stats.contacts_dropped, all - 1);
   motion.t0 = 1.0f, motion.t1 = 0.5f;
   EXPECT_FALSE(motion.validate());
+}
+
+TEST(ColliderMotion, KeepsWhatItFoundWhileTheClothStaysThere) {
+  std::mt19937 random(6);
+  const CapsuleColumns capsules = random_capsules(500, random);
+  CollisionBodies bodies(memory());
+  bodies.update_capsules(capsules);
+  ContactCloth cloth({{-1, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}});
+  std::vector<CapsulePose> kept(64), fresh(64);
+  std::uint32_t kept_count = 0, fresh_count = 0;
+  Box sought;
+  Stats stats;
+  std::uint32_t times_sought = 0;
+  for (int substep = 0; substep < 20; ++substep) {
+    const Vec3 before = sought.low;
+    const Vec3View x = cloth.position.view();
+    ColliderMotion{&capsules, &bodies, 3, x, 0.2f, 0.25f, 0.5f, kept.data(), 64, &kept_count, &sought}.run(stats);
+    Box anew;
+    ColliderMotion{&capsules, &bodies, 3, x, 0.2f, 0.25f, 0.5f, fresh.data(), 64, &fresh_count, &anew}.run(stats);
+    const Box near = box_of(x, 3).grown(0.2f);
+    for (std::uint32_t k = 0; k < fresh_count; ++k) {
+      const auto same = [&](const CapsulePose& pose) { return pose.index == fresh[k].index && pose.a == fresh[k].a; };
+      Box swept;
+      const std::uint32_t i = fresh[k].index;
+      for (const Vec3Column* end : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
+        swept.include(end->view()[i]);
+      }
+      if (!swept.grown(widest_radius(fresh[k])).overlaps(near)) continue;
+      EXPECT_TRUE(std::any_of(kept.begin(), kept.begin() + kept_count, same)) << i << " in substep " << substep;
+    }
+    times_sought += sought.low == before ? 0 : 1;
+    for (std::uint32_t i = 0; i < 3; ++i) x.add(i, {0.03f, 0.0f, 0.0f});
+  }
+  EXPECT_EQ(times_sought, 5u);  // every 10 cm
+  EXPECT_EQ(stats.contacts_dropped, 0u);
 }
 
 TEST(ColliderMotion, ABallThatHoldsTheOtherIsAllThereIs) {
@@ -149,8 +186,10 @@ TEST(ColliderMotion, ABallThatHoldsTheOtherIsAllThereIs) {
   ContactCloth cloth({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}});
   std::vector<CapsulePose> poses(2);
   std::uint32_t count = 0;
+  Box sought;
   Stats stats;
-  ColliderMotion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.0f, 1.0f, poses.data(), 2, &count}.run(stats);
+  ColliderMotion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.0f, 1.0f, poses.data(), 2, &count, &sought}.run(
+      stats);
   ASSERT_EQ(count, 2u);
   for (std::uint32_t i = 0; i < 2; ++i) {
     const float x = i == 0 ? 0.1f : 0.0f;
