@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <set>
 #include <utility>
 
@@ -58,6 +59,7 @@ struct Chains {
       : next(edges.size()), before(edges.size()), length(edges.size()) {
     std::vector<std::uint32_t> first(particle_count, kEmptySlot);  // at each particle, of the edges seen so far
     for (auto e = static_cast<std::uint32_t>(edges.size()); e-- > 0;) {
+      assert(edges[e][0] != edges[e][1]);
       for (std::size_t k = 0; k < 2; ++k) {
         std::uint32_t& at = first[edges[e][k]];
         if (at != kEmptySlot) length[e] = std::max(length[e], length[at]), ++before[at];
@@ -81,8 +83,8 @@ std::vector<std::uint32_t> slots_of(std::uint32_t particle_count, std::span<cons
     if (chains.before[e] == 0) add(e);
   }
   std::vector<std::uint32_t> slots, stage;
-  std::uint32_t stages =
-      urgent.empty() ? 0 : urgent.rbegin()->first;  // that are left: as many as the longest chain has
+  // That are left: as many as the longest chain has.
+  std::uint32_t stages = urgent.empty() ? 0 : urgent.rbegin()->first;
   for (std::uint32_t left = count; left != 0; left -= static_cast<std::uint32_t>(stage.size()), --stages) {
     stage.clear();
     const auto take = [&](std::uint32_t e) { stage.push_back(e), ready.erase(e), urgent.erase({chains.length[e], e}); };

@@ -157,10 +157,14 @@ using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_al
 PLEAT_KERNEL Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
 /// Two beside each other: as integers, for of vectors of four floats GCC 12 makes one more instruction.
 PLEAT_KERNEL Lanes load_pair(const Vec4& low, const Vec4& high) {
+#ifdef __SIZEOF_INT128__
   __extension__ typedef __int128 Bits __attribute__((may_alias));
   __extension__ typedef __int128 TwoBits __attribute__((vector_size(32)));
   const TwoBits two = {reinterpret_cast<const Bits&>(low), reinterpret_cast<const Bits&>(high)};
   return reinterpret_cast<Lanes>(two);
+#else
+  return __builtin_shufflevector(load_four(low), load_four(high), 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
 }
 PLEAT_KERNEL void store(Four four, Vec4& to) { reinterpret_cast<FourInMemory&>(to) = four; }
 

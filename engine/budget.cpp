@@ -11,6 +11,7 @@ namespace pleat {
 namespace {
 
 constexpr float kOfTheNewest = 0.2f;  // in the mean pace: about ten ticks count
+constexpr float kLeastShare = 0.01f;  // of the budget, for cloths that are seen
 
 using Work = std::array<float, kMostGivenUp + 1>;
 
@@ -40,28 +41,40 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
     world.pace = 0.0f;
     return;
   }
-  const std::size_t count = world.clothes.size();
-  world.detail.reserve(count), world.detail_order.reserve(count);
-  world.detail.resize(count), world.detail_order.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const ClothRecord& cloth = world.clothes[i];
-    world.detail[i] = {cloth.importance, work_of(cloth, cloth.substeps_wanted), cloth.given_up};
+  const std::size_t most = world.clothes.size();
+  world.detail.reserve(most), world.detail_order.reserve(most);
+  world.detail.resize(most), world.detail_order.resize(most);
+  std::size_t count = 0;
+  float unseen = 0.0f;  // work
+  for (const ClothRecord& cloth : world.clothes) {
+    const Work work = work_of(cloth, cloth.substeps_wanted);
+    if (cloth.visible) {
+      world.detail[count++] = {cloth.importance, work, cloth.given_up};
+    } else {
+      unseen += work[0];
+    }
   }
   if (const float work = work_taken(world); work > 0.0f) {
     world.pace = world.pace == 0.0f ? cost_ms / work : world.pace + kOfTheNewest * (cost_ms / work - world.pace);
   }
+  // What nobody sees has nothing to give, and takes its part.
+  const float left = std::max(budget_ms - world.pace * unseen, kLeastShare * budget_ms);
   const DetailChoice choice{.candidates = {world.detail.data(), count},
                             .order = {world.detail_order.data(), count},
-                            .budget = budget_ms,
+                            .budget = left,
                             .pace = world.pace};
   assert(choice.validate());
   choice.run();
-  for (std::size_t i = 0; i < count; ++i) world.clothes[i].given_up = world.detail[i].given_up;
+  count = 0;
+  for (ClothRecord& cloth : world.clothes) cloth.given_up = cloth.visible ? world.detail[count++].given_up : 0;
 }
 
-void fade_detail(World& world, ClothRecord& cloth, float dt) {
+void fade_substeps(ClothRecord& cloth, float dt) {
   const float substeps = gives_up_substeps(cloth) ? 1.0f / static_cast<float>(cloth.given_up) : 1.0f;
   cloth.substep_share = cloth.visible ? faded(cloth.substep_share, substeps, dt * kSubstepsFade) : kInvisibleSubsteps;
+}
+
+void fade_folds(World& world, ClothRecord& cloth, float dt) {
   const float folds = gives_up_folds(cloth) ? 0.0f : 1.0f;
   if (cloth.fold_share == folds) return;
   cloth.fold_share = faded(cloth.fold_share, folds, dt * kFoldsFade);

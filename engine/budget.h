@@ -10,7 +10,9 @@ namespace pleat {
 void keep_budget(World& world, float budget_ms, float cost_ms);
 
 /// Brings the cloth nearer to what it may have, and plans anew where folds come or go. On any thread.
-void fade_detail(World& world, ClothRecord& cloth, float dt);
+void fade_folds(World& world, ClothRecord& cloth, float dt);
+/// The same of its substeps, which comes to nothing while it sleeps, but goes on.
+void fade_substeps(ClothRecord& cloth, float dt);
 
 inline bool has_folds_to_give(const ClothRecord& cloth) {
   return cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.pattern() != nullptr;

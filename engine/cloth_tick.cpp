@@ -169,7 +169,7 @@ std::uint32_t substeps_that_bend_alike(const ClothTick& t) {
   if (t.settings.integrator != PLEAT_INTEGRATOR_PROJECTED || t.force_steps > 1) return 1;
   const StableStep stable = stable_step(t);
   std::uint32_t n = 1;
-  for (; t.dt * static_cast<float>(n + 1) <= 1.001f * kBendingHeld; ++n) {
+  for (; n < kMostSubsteps && t.dt * static_cast<float>(n + 1) <= 1.001f * kBendingHeld; ++n) {
     if (stable.run(t.dt * static_cast<float>(n + 1), 1, 1) != 1) break;
   }
   return n;
@@ -200,7 +200,7 @@ void roll_back(ClothTick& t) {
   copy(t.velocity, t.start_velocity, n);
   if (t.world.held.size() != 0) clear(t.world.held.view().from(t.cloth.particle_begin), n);
   t.cloth.self_pair_count = t.cloth.layer_pair_count = kNone;
-  t.cloth.bending_left = 0;
+  t.cloth.bending_left = 0.0f;
 }
 
 /// The cloth as it was when the tick began, at rest, carried to where its pins are.
@@ -238,6 +238,7 @@ void run_phase(ClothTick& t, Phase phase) {
 void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
   ClothTick t(world, worker, cloth);
   t.frame_dt = dt;
+  fade_substeps(cloth, dt);
   if (sleeps_on(t)) {
     ++worker.stats.sleeping;
     cloth.substeps_taken = 0;
@@ -245,7 +246,7 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     return;
   }
   if (cloth.settling > 0.0f) begin_settling(t);
-  fade_detail(world, cloth, dt);
+  fade_folds(world, cloth, dt);
   std::uint32_t n = substeps_for(t, dt);
   copy(t.start, t.position, t.garment.particle_count);
   copy(t.start_velocity, t.velocity, t.garment.particle_count);

@@ -115,6 +115,7 @@ void set_collider(World& world, const ColliderRecord& record, const pleat_collid
       world.capsules.thickness[i] = s.thickness;
       world.capsules.radius[i] = s.radius;
       world.capsules.taper[i] = record.shape == PLEAT_COLLIDER_TAPERED_CAPSULE ? s.radius_b - s.radius : 0.0f;
+      world.capsules_filed = false;
       break;
     case ColliderKind::kMesh:
       set_margins(world.meshes[i].mesh, s);
@@ -200,6 +201,7 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
     switch (record.kind) {
       case ColliderKind::kCapsule:
         world.capsules.enabled[record.position] = enabled != 0 ? 1 : 0;
+        world.capsules_filed = false;
         break;
       case ColliderKind::kMesh:
         world.meshes[record.position].mesh.enabled = enabled != 0;

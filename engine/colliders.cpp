@@ -47,6 +47,7 @@ Handle add_capsule(World& world, std::uint32_t shape, const Vec3& a, const Vec3&
   c.previous_b.view().set(i, b), c.next_b.view().set(i, b);
   c.friction[i] = 1.0f;
   c.enabled[i] = 1;
+  world.capsules_filed = false;
   return enter(world, shape, ColliderKind::kCapsule, i);
 }
 
@@ -76,6 +77,7 @@ void remove_collider(World& world, std::uint32_t position) {
   switch (gone.kind) {
     case ColliderKind::kCapsule:
       for_each_column(world.capsules, [&gone](auto& column) { column.erase(gone.position, 1); });
+      world.capsules_filed = false;
       break;
     case ColliderKind::kMesh:
       world.bodies->remove_mesh(gone.position);

@@ -385,7 +385,8 @@ typedef struct pleat_contact_report {
   float particle_depth;       /* of the deepest particle that is no pin */
   float pin_depth;            /* of any point of the pins and of the edges between them: the host put them there */
   float face_depth;       /* of any point of the coarse triangles; in meshes, boxes and hulls of 45 points of each */
-  float drawn_depth;      /* of any point of the drawn triangles; in meshes, boxes and hulls of their vertices */
+  float drawn_depth;      /* of any point of the drawn triangles; in meshes, boxes and hulls of their vertices. Where
+                             the cloth is not visible: face_depth */
   pleat_collider deepest; /* where the largest of these is; zero when all are 0 */
   /* What contact of cloth with cloth missed: coarse edges that pass through coarse triangles. */
   uint64_t self_crossings;  /* of the cloth itself, where its self_distance is not 0 */
@@ -456,7 +457,8 @@ typedef struct pleat_api {
      Where it is stretched or more than .5 mm inside a body it is held at rest until it is not, .25 s at most. */
   pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
                                         const float* velocities, uint32_t count);
-  /* The drawn surface, as of the last tick or of the last call that made, placed or set the cloth. */
+  /* The drawn surface, as of the last tick or of the last call that made, placed, set or showed the cloth; refused
+   * where the cloth is not visible. */
   pleat_result (*cloth_read_vertices)(const pleat_world* world, pleat_cloth cloth, const pleat_vertex_target* target);
   /* 3 indices a drawn triangle; constant while the level is. capacity: indices. */
   pleat_result (*cloth_read_indices)(const pleat_world* world, pleat_cloth cloth, uint32_t* indices, uint32_t capacity);
@@ -488,7 +490,8 @@ typedef struct pleat_api {
                                         uint32_t capacity);
   /* The lowest level 1..8 that keeps the drawn triangles of the present surface within half a pixel of it, if their
    * sides are 4 pixels or longer on average. pixels_per_metre: at the cloth's distance from the eye. The cloth's own
-   * level stays; a host that follows the suggestion should go down later than up, so that it does not flicker. */
+   * level stays; a host that follows the suggestion should go down later than up, so that it does not flicker. Refused
+   * where the cloth is not visible. */
   pleat_result (*cloth_suggest_level)(const pleat_world* world, pleat_cloth cloth, float pixels_per_metre,
                                       uint32_t* level);
   /* As of the last tick; a body that was moved since counts where it was. Found on this call: not asked for, it costs
@@ -500,7 +503,8 @@ typedef struct pleat_api {
    * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. */
   pleat_result (*cloth_teleport)(pleat_world* world, pleat_cloth cloth, const float from[3], const float to[3],
                                  const float rotation[4]);
-  /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. */
+  /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. Around the
+   * particles where the cloth is not visible. */
   pleat_result (*cloth_bounds)(const pleat_world* world, pleat_cloth cloth, float low[3], float high[3]);
   /* Level of detail, to be called after each tick with what it took by the host's own clock: where it is more than the
    * budget, cloths give up folds, then half of their substeps, then a third of the rest, the least important ones first
@@ -512,9 +516,9 @@ typedef struct pleat_api {
   /* For the budget: size on screen, say, of any unit, >= 0; 1 until it is set. May be called every frame. */
   pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);
   /* 0: nobody sees the cloth, as where its character is off the screen. Its surface is not drawn and cannot be read,
-   * its bounds are those of its particles, and it takes a sixth of its substeps, or as many as bodies need in order not
-   * to pass through. 1, as at first: its surface is there again at once, its substeps over two seconds. May be called
-   * every frame. */
+   * and it takes a sixth of its substeps, or as many as it needs in order to be stable and not to let bodies through;
+   * where `substeps` is set it keeps those. 1, as at first: its surface is there again at once, its substeps over two
+   * seconds. May be called every frame. */
   pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
 } pleat_api;
 

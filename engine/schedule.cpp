@@ -82,13 +82,20 @@ void settle_poses(World& world) {
   for (PlaneCollider& plane : world.planes) plane.previous = plane.next;
 }
 
+#ifdef PLEAT_WITH_COLLISION
+void file_capsules(World& world) {
+  world.bodies->update_capsules(world.capsules);
+  world.capsules_filed = true;
+}
+#endif
+
 /// Files the bodies of this tick in their trees.
 void update_bodies([[maybe_unused]] World& world) {
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies == nullptr) return;
   const pleat_world_def& host = world.def;
   if (host.stage != nullptr) host.stage("body_refit", 1, host.stage_user);
-  world.bodies->update_capsules(world.capsules);
+  file_capsules(world);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     MeshRecord& record = world.meshes[i];
     if (record.stale_ticks == 0) continue;
@@ -166,16 +173,16 @@ void refresh(World& world, ClothRecord& cloth) {
   assert(bound.validate());
   cloth.rates = bound.run();
   cloth.lowered = Notice::kNothing;
-  cloth.bending_left = 0;
+  cloth.bending_left = 0.0f;
   wake(cloth);
   cloth.plan = plan_of(world, cloth);
-#ifdef PLEAT_WITH_COLLISION
-  if (world.bodies != nullptr) world.bodies->update_capsules(world.capsules);
-#endif
   draw(world, cloth);
 }
 
 void draw(World& world, ClothRecord& cloth) {
+#ifdef PLEAT_WITH_COLLISION
+  if (world.bodies != nullptr && !world.capsules_filed) file_capsules(world);
+#endif
   ClothTick t(world, world.workers[0], cloth);
   t.t1 = t.t0;  // between ticks bodies are where the last one left them
   run_phase(t, Phase::kFrameEnd);

@@ -72,11 +72,14 @@ constexpr Row kRows[] = {
      }},
     {Phase::kStage, "hinge_bending", with_bending,
      [](ClothTick& t) {
-       if (t.cloth.bending_left != 0) {
-         --t.cloth.bending_left;
+       const float held = t.force_dt * static_cast<float>(t.bending_held - 1);  // beyond the present step
+       float& left = t.cloth.bending_left;
+       left = std::min(left, held);
+       if (left > 0.5f * t.force_dt) {
+         left -= t.force_dt;
          return;
        }
-       t.cloth.bending_left = t.bending_held - 1;
+       left = held;
        const Vec3View bending = t.world.bending.view().from(t.cloth.particle_begin);
        clear(bending, t.garment.particle_count);
        run(HingeBending{.garment = &t.garment,

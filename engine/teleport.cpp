@@ -36,7 +36,7 @@ void carry(ClothTick& t, const RigidMotion& jump) {
     if (!moved) next.set(k, previous[k]);
   }
   carry_bodies(world, jump);
-  t.cloth.bending_left = 0;
+  t.cloth.bending_left = 0.0f;
   wake(t.cloth);
   t.cloth.self_pair_count = kNone;
   forget_layer_pairs(world);

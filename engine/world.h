@@ -76,7 +76,7 @@ struct ClothRecord {
   float fold_share = 1.0f;                   // of their height, with which folds are drawn
   float substep_share = 1.0f;                // that is taken of those wanted
   std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
-  std::uint32_t bending_left = 0;            // substeps for which its force of bending is still held
+  float bending_left = 0.0f;                 // s, for how much longer its force of bending is held
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
   float settling = kSettling;                // s, for how much longer a start that does not fit is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
@@ -143,6 +143,7 @@ struct World {
   Column<PlaneCollider> planes;
   std::pmr::vector<const MeshCollider*> mesh_pointers;    // into `meshes`, in order
   std::unique_ptr<CollisionBodies, MemoryDelete> bodies;  // null while there is no collider
+  bool capsules_filed = false;                            // in its tree: none came, went or changed since
 
   mutable std::pmr::vector<Worker> workers;        // at least one; scratch, also for questions
   std::unique_ptr<ThreadPool, MemoryDelete> pool;  // where there are more and the host has no parallel_for

@@ -14,11 +14,10 @@ namespace {
 template <std::size_t kCorners, class Test>
 PLEAT_KERNEL void for_each_eight(const CapsuleCandidateColumns& candidates, const NearFeatures& near,
                                  const std::uint32_t* const (&corner)[kCorners], const Test& test) {
-  const Vec4Place* listed = candidates.corner.data() + near.begin;
-  for (std::uint32_t first = 0; first < near.count; first += kLanes, listed += kCorners * kLanes) {
+  for (std::uint32_t first = 0; first < near.count; first += kLanes) {
     const std::uint32_t used = (1u << std::min(near.count - first, kLanes)) - 1;
     if (near.begin != NearFeatures::kAll) {
-      test(listed, used);
+      test(candidates.corner.data() + near.begin + kCorners * first, used);
     } else {
       Vec4Place place[kCorners * kLanes];
       for (std::uint32_t k = 0; k < kCorners * kLanes; ++k) {

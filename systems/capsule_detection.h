@@ -18,9 +18,10 @@ namespace pleat {
 /// crossed the core returns to where it came from; nothing is missed while the relative motion in a substep is shorter
 /// than radius + thickness. Where two capsules leave the cloth less room between them than it takes, their rows agree
 /// on the middle: there it stays, calm and as deep in both, until they part.
-/// Reads:  garment edges, faces; position and inverse mass, previous (P) m, 1/kg, packed; capsules; candidates, of
-/// these Writes: contacts, added to; stats.contacts_dropped; blocks Cost:   O(candidates), no allocation. Errors: none;
-/// features without extent make finite rows or none.
+/// Reads:  garment edges, faces; position, inverse mass and previous (P), packed, m and 1/kg; capsules; candidates
+/// Writes: contacts, added to; stats.contacts_dropped; blocks
+/// Cost:   O(candidates), no allocation.
+/// Errors: none; features without extent make finite rows or none.
 struct CapsuleDetection {
   const Garment* garment = nullptr;
   const Vec4* position = nullptr;  // predicted, and w, inverse mass

@@ -16,7 +16,13 @@ bool ColliderMotion::validate() const {
 
 void ColliderMotion::run(Stats& stats) const {
   const Box near = box_of(position, particle_count).grown(reach);
-  if (!sought->holds(near)) seek(near.grown(kSkin), stats);
+  if (!sought->holds(near)) {
+    *sought = near.grown(kSkin);
+    if (seek(*sought) > capacity) {  // then none may take the place of a nearer one
+      *sought = {};
+      stats.contacts_dropped += seek(near) - *pose_count;
+    }
+  }
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::uint32_t k = 0; k < *pose_count; ++k) {
@@ -33,19 +39,17 @@ void ColliderMotion::run(Stats& stats) const {
   }
 }
 
-void ColliderMotion::seek(const Box& box, Stats& stats) const {
-  std::uint32_t count = 0;
+std::uint32_t ColliderMotion::seek(const Box& box) const {
+  std::uint32_t found = 0;
   bodies->for_each_capsule(box, [&](std::uint32_t i) {
-    if (count == capacity) {
-      ++stats.contacts_dropped;
-    } else {
-      poses[count++].index = i;
-    }
+    if (found < capacity) poses[found].index = i;
+    ++found;
   });
+  const std::uint32_t count = std::min(found, capacity);
   // The tree's order depends on its history; a cloth's motion must not.
   std::sort(poses, poses + count, [](const CapsulePose& p, const CapsulePose& q) { return p.index < q.index; });
   *pose_count = count;
-  *sought = box;
+  return found;
 }
 
 }  // namespace pleat

@@ -32,7 +32,8 @@ struct ColliderMotion {
   void run(Stats& stats) const;
 
  private:
-  void seek(const Box& box, Stats& stats) const;
+  /// Returns how many there are.
+  std::uint32_t seek(const Box& box) const;
 };
 
 }  // namespace pleat

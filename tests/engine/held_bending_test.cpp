@@ -55,6 +55,16 @@ TEST(HeldBending, IsFoundEveryThirdSubstepThroughTicksOfAnyLength) {
   EXPECT_EQ(w.step(3 * kSubstep), "fhh");
 }
 
+TEST(HeldBending, IsHeldForItsTimeWhateverTheTicksWere) {
+  Watched w;
+  EXPECT_EQ(w.step(1e-4f).substr(0, 1), "f");  // of which 83 would be that time
+  EXPECT_EQ(w.step(6 * kSubstep), "hhfhhf");
+  Watched other;
+  EXPECT_EQ(other.step(1e-6f), "f");
+  const std::string substeps = other.step(4 * kSubstep);
+  EXPECT_NE(substeps.find('f'), std::string::npos) << substeps;
+}
+
 TEST(HeldBending, BeginsAnewWhereTheClothIsChangedOrCarriedAway) {
   Watched w;
   const float from[3] = {0, 0, 0}, to[3] = {0.1f, 0, 0};

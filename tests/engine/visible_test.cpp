@@ -122,6 +122,54 @@ TEST(Visible, TheBudgetTakesNothingMoreFromWhatNobodySees) {
   EXPECT_EQ(scene.stats().substeps_given_up, 0u);
 }
 
+TEST(Visible, TheBudgetExchangesNothingWithWhatNobodySees) {
+  Hanging scene;
+  const pleat_cloth other = scene.cloth(scene.sheet(7));
+  must(call::cloth_set_importance(scene, other, 5.0f));
+  scene.tick(3);
+  for (int call = 0; call < 40; ++call) must(call::world_keep_budget(scene, 1.0f, 100.0f));
+  EXPECT_EQ(scene.stats().substeps_given_up, 2u);
+  scene.show(false);
+  for (int call = 0; call < 3; ++call) must(call::world_keep_budget(scene, 1.0f, 1.0f));
+  EXPECT_EQ(scene.stats().substeps_given_up, 1u) << "the one that is seen";
+  scene.show(true);
+  EXPECT_EQ(scene.stats().substeps_given_up, 1u);
+}
+
+TEST(Visible, ClothThatSleptOutOfSightWakesWithItsSubsteps) {
+  pleat_cloth_settings s = Scene::default_settings();
+  s.sleep_speed = 0.01f, s.air_damping = 2.0f, s.drag_coefficient = 1.0f;
+  Hanging scene(s);
+  scene.show(false);
+  scene.tick(600);
+  ASSERT_EQ(scene.stats().sleeping, 1u);
+  scene.show(true);
+  scene.tick(60);
+  ASSERT_EQ(scene.stats().sleeping, 1u);
+  const float wind[3] = {3, 0, 0};
+  must(call::world_set_wind(scene, wind));
+  scene.tick(1);
+  EXPECT_EQ(scene.substeps(), 12u);
+}
+
+#ifdef PLEAT_WITH_COLLISION
+TEST(Visible, BodiesThatWentMeanwhileAreGoneAtOnce) {
+  Hanging scene;
+  std::vector<pleat_collider> balls;
+  for (int k = 0; k < 3; ++k) balls.push_back(scene.sphere(0.4f * static_cast<float>(k) - 0.4f, -0.3f, 0.0f, 0.1f));
+  scene.tick(2);
+  scene.show(false);
+  scene.tick(1);
+  must(call::collider_destroy(scene, balls[0]));
+  must(call::collider_destroy(scene, balls[1]));
+  scene.show(true);
+  const std::vector<float> shown = scene.vertices(scene.id);
+  const pleat_cloth_settings s = scene.settings(scene.id);
+  must(call::cloth_set(scene, scene.id, &s));  // draws anew
+  EXPECT_TRUE(same_bits(shown, scene.vertices(scene.id)));
+}
+#endif
+
 TEST(Visible, NothingIsAllocated) {
   Hanging scene;
   scene.tick(3);

@@ -292,6 +292,8 @@ class Host {
       }
       case 12:
         return note(api_.garment_destroy(world_, garment_));
+      case 13:
+        return note(api_.cloth_set_visible(world_, any(clothes_), bytes_.below(2)));
       default:
         return note(api_.world_step(world_, bytes_.scaled(1.0f / 60)));
     }
