@@ -4,7 +4,9 @@
 #include <chrono>
 #include <functional>
 #include <iterator>
-#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/counting_new.h"
 #include "bench/host_frame.h"
@@ -162,51 +164,28 @@ double median_ratio(const std::vector<std::vector<double>>& ours, const std::vec
 }  // namespace
 
 std::string stage_group(const std::string& system) {
-  static const std::map<std::string, std::string> kGroups = {{"elastic_force", "forces"},
-                                                             {"hinge_bending", "forces"},
-                                                             {"elastic_projection", "forces"},
-                                                             {"implicit_integration", "integration"},
-                                                             {"edge_damping", "forces"},
-                                                             {"gravity", "forces"},
-                                                             {"air_damping", "forces"},
-                                                             {"air_drag", "forces"},
-                                                             {"inner_friction", "forces"},
-                                                             {"tether_constraint", "stretch"},
-                                                             {"pin_motion", "integration"},
-                                                             {"euler_integration", "integration"},
-                                                             {"finite_guard", "integration"},
-                                                             {"runge_kutta_integration", "integration"},
-                                                             {"velocity_update", "integration"},
-                                                             {"stretch_constraint", "stretch"},
-                                                             {"collider_motion", "collision"},
-                                                             {"capsule_detection", "collision"},
-                                                             {"self_candidates", "self"},
-                                                             {"self_detection", "self"},
-                                                             {"layer_candidates", "layers"},
-                                                             {"layer_detection", "layers"},
-                                                             {"mesh_detection", "collision"},
-                                                             {"collision_response", "collision"},
-                                                             {"contact_friction", "collision"},
-                                                             {"contact_acceleration", "collision"},
-                                                             {"contact_velocity", "collision"},
-                                                             {"collision_last_word", "collision"},
-                                                             {"surface_footprint", "clearance"},
-                                                             {"surface_capsules", "clearance"},
-                                                             {"surface_clearance", "clearance"},
-                                                             {"particle_normals", "normals"},
-                                                             {"mesh_candidates", "collision"},
-                                                             {"mesh_clearance", "clearance"},
-                                                             {"fold_sides", "edge_length"},
-                                                             {"stretch_after_friction", "stretch"},
-                                                             {"capsule_candidates", "collision"},
-                                                             {"rounding_hold", "integration"},
-                                                             {"contact_stick", "collision"},
-                                                             {"edge_ways", "stretch"},
-                                                             {"slow_force", "forces"},
-                                                             {"coarse_stretch", "stretch"},
-                                                             {"body_refit", "collision"}};
-  const auto found = kGroups.find(system);
-  return found == kGroups.end() ? system : found->second;
+  using Group = std::pair<const char*, std::vector<std::string_view>>;
+  static const std::vector<Group> kGroups = {
+      {"forces",
+       {"elastic_force", "hinge_bending", "elastic_projection", "edge_damping", "gravity", "air_damping", "air_drag",
+        "inner_friction", "slow_force"}},
+      {"integration",
+       {"implicit_integration", "pin_motion", "euler_integration", "finite_guard", "runge_kutta_integration",
+        "velocity_update", "rounding_hold"}},
+      {"stretch", {"tether_constraint", "stretch_constraint", "stretch_after_friction", "edge_ways", "coarse_stretch"}},
+      {"collision",
+       {"collider_motion", "capsule_detection", "mesh_detection", "collision_response", "contact_friction",
+        "contact_acceleration", "contact_velocity", "collision_last_word", "mesh_candidates", "capsule_candidates",
+        "contact_stick", "body_refit"}},
+      {"self", {"self_candidates", "self_detection"}},
+      {"layers", {"layer_candidates", "layer_detection"}},
+      {"clearance", {"surface_footprint", "surface_capsules", "surface_clearance", "mesh_clearance"}},
+      {"normals", {"particle_normals"}},
+      {"edge_length", {"fold_sides"}},
+  };
+  const auto found =
+      std::ranges::find_if(kGroups, [&](const Group& group) { return std::ranges::count(group.second, system) != 0; });
+  return found == kGroups.end() ? system : found->first;
 }
 
 double stage_sum(const std::vector<NamedSpread>& stages, std::span<const std::string_view> names) {

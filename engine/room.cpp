@@ -18,8 +18,7 @@ void resize_together(std::size_t size, Columns&... columns) {
 void make_dynamics_room(World& world, const ClothRecord& cloth) {
   const std::size_t particles = world.particles.mass.size();
   if (cloth.settings.inner_friction > 0.0f || world.held.size() != 0) world.held.resize(particles);
-  const bool bends = cloth.settings.bend_stiffness > 0.0f || cloth.settings.bend_damping > 0.0f;
-  if (bends || world.bending.size() != 0) world.bending.resize(particles);
+  if (resists_bending(cloth) || world.bending.size() != 0) world.bending.resize(particles);
   if (cloth.settings.integrator == PLEAT_INTEGRATOR_RUNGE_KUTTA_4 || world.runge_kutta.start_velocity.size() != 0) {
     resize_together(particles, world.runge_kutta.start_velocity, world.runge_kutta.position_slope,
                     world.runge_kutta.velocity_slope);

@@ -1,4 +1,6 @@
 // Rows from the begin of a tick to the integrated position: pins, forces, integration.
+#include <algorithm>
+
 #include "engine/schedule_row.h"
 #include "engine/teleport.h"
 #include "systems/air_damping.h"
@@ -36,9 +38,22 @@ const char* without_air(const World& w, const ClothRecord& c) {
 }
 
 const char* with_bending(const World&, const ClothRecord& c) {
-  return c.garment().hinge_count == 0                                           ? "no two faces share an edge"
-         : c.settings.bend_stiffness == 0.0f && c.settings.bend_damping == 0.0f ? "bend_stiffness is 0"
-                                                                                : kNeeded;
+  return c.garment().hinge_count == 0 ? "no two faces share an edge"
+         : !resists_bending(c)        ? "bend_stiffness is 0"
+                                      : kNeeded;
+}
+
+/// Whether the force of bending is to be found anew in this step, or has some of its time left.
+bool bends_anew(ClothTick& t) {
+  const float held = t.force_dt * static_cast<float>(t.bending_held - 1);  // s, beyond the present step
+  float& left = t.cloth.bending_left;
+  left = std::min(left, held);
+  if (left > 0.5f * t.force_dt) {
+    left -= t.force_dt;
+    return false;
+  }
+  left = held;
+  return true;
 }
 
 constexpr Row kRows[] = {
@@ -72,14 +87,7 @@ constexpr Row kRows[] = {
      }},
     {Phase::kStage, "hinge_bending", with_bending,
      [](ClothTick& t) {
-       const float held = t.force_dt * static_cast<float>(t.bending_held - 1);  // beyond the present step
-       float& left = t.cloth.bending_left;
-       left = std::min(left, held);
-       if (left > 0.5f * t.force_dt) {
-         left -= t.force_dt;
-         return;
-       }
-       left = held;
+       if (!bends_anew(t)) return;
        const Vec3View bending = t.world.bending.view().from(t.cloth.particle_begin);
        clear(bending, t.garment.particle_count);
        run(HingeBending{.garment = &t.garment,

@@ -77,7 +77,7 @@ std::size_t capsule_room(std::size_t capsules) {
 void make_room(Worker& worker, [[maybe_unused]] const World& world, const ClothRecord& cloth) {
   worker.packed.make_room(cloth.garment().particle_count);
   at_least(worker.edge_way, std::max(cloth.garment().way_count, 1u));  // not null where all particles are pins
-  if (cloth.settings.bend_stiffness > 0.0f || cloth.settings.bend_damping > 0.0f) {
+  if (resists_bending(cloth)) {
     worker.hinge_scratch.make_room(cloth.garment().hinge_count);
   }
   make_surface_room(worker, cloth);

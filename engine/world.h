@@ -90,6 +90,10 @@ struct ClothRecord {
   }
 };
 
+inline bool resists_bending(const ClothRecord& cloth) {
+  return cloth.settings.bend_stiffness > 0.0f || cloth.settings.bend_damping > 0.0f;
+}
+
 /// A mesh body, and for how many ticks its swept boxes still have to be brought up to date: two after a move, the tick
 /// in which it moves and the one in which it stands again.
 struct MeshRecord {
