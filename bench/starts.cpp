@@ -120,10 +120,11 @@ nlohmann::ordered_json starts_json(const std::vector<Start>& starts) {
 void print_starts(const std::vector<Start>& starts) {
   const nlohmann::ordered_json json = starts_json(starts);
   std::printf("\n%-28s %10s %10s\n", "over all starts", "worst", "of start");
-  for (const auto& [name, value] : json["worst"].items()) {
+  for (const auto& worst : json["worst"].items()) {
     const auto& runs = json["runs"];
-    const auto at = std::ranges::find_if(runs, [&](const auto& run) { return run.at(name) == value; });
-    std::printf("  %-26s %10.4f %10u\n", name.c_str(), value.get<double>(), at->at("start").template get<unsigned>());
+    const auto at = std::ranges::find_if(runs, [&](const auto& run) { return run.at(worst.key()) == worst.value(); });
+    std::printf("  %-26s %10.4f %10u\n", worst.key().c_str(), worst.value().get<double>(),
+                at->at("start").get<unsigned>());
   }
 }
 

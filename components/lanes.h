@@ -155,9 +155,10 @@ using FourInMemory = float __attribute__((vector_size(4 * sizeof(float)), may_al
 
 /// By value, not by memcpy: after that compilers go through the stack for a single number of the four.
 PLEAT_KERNEL Four load_four(const Vec4& from) { return reinterpret_cast<const FourInMemory&>(from); }
-/// Two beside each other: as integers, for of vectors of four floats GCC 12 makes one more instruction.
+/// Two beside each other: as integers, for of vectors of four floats GCC 12 makes one more instruction. Clang, which
+/// loads integers in pieces, makes of the vectors what it should.
 PLEAT_KERNEL Lanes load_pair(const Vec4& low, const Vec4& high) {
-#ifdef __SIZEOF_INT128__
+#if defined(__SIZEOF_INT128__) && !defined(__clang__)
   __extension__ typedef __int128 Bits __attribute__((may_alias));
   __extension__ typedef __int128 TwoBits __attribute__((vector_size(32)));
   const TwoBits two = {reinterpret_cast<const Bits&>(low), reinterpret_cast<const Bits&>(high)};

@@ -29,6 +29,9 @@
 #endif
 /// For a kernel and its helpers: they are compiled where they are called from, for that target.
 #define PLEAT_KERNEL __attribute__((always_inline)) inline
+/// The same for a lambda that a kernel hands to a helper, behind its parameters: clang would leave it out of line, and
+/// what is out of line is compiled for the baseline.
+#define PLEAT_KERNEL_LAMBDA __attribute__((always_inline))
 
 namespace pleat {
 

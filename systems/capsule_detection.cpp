@@ -57,19 +57,22 @@ struct CapsuleTest {
     const std::uint32_t* const corner[] = {g.face_particle[0].data(), g.face_particle[1].data(),
                                            g.face_particle[2].data()};
     NearPlaces round, flat;
-    for_each_eight(*in.candidates, of(FeatureKind::kParticle), itself, [&](const Vec4Place* at, std::uint32_t used) {
-      find_particles(at, used, round);
-      add_round(rows, round, kLanes, stats);
-    });
-    for_each_eight(*in.candidates, of(FeatureKind::kEdge), end, [&](const Vec4Place* at, std::uint32_t used) {
-      find_edges(at, used, round);
-      add_round(rows, round, kLanes, stats);
-    });
+    for_each_eight(*in.candidates, of(FeatureKind::kParticle), itself,
+                   [&](const Vec4Place* at, std::uint32_t used) PLEAT_KERNEL_LAMBDA {
+                     find_particles(at, used, round);
+                     add_round(rows, round, kLanes, stats);
+                   });
+    for_each_eight(*in.candidates, of(FeatureKind::kEdge), end,
+                   [&](const Vec4Place* at, std::uint32_t used) PLEAT_KERNEL_LAMBDA {
+                     find_edges(at, used, round);
+                     add_round(rows, round, kLanes, stats);
+                   });
     add_round(rows, round, 1, stats);
-    for_each_eight(*in.candidates, of(FeatureKind::kFace), corner, [&](const Vec4Place* at, std::uint32_t used) {
-      find_faces(at, used, flat);
-      add_flat(rows, flat, kLanes, stats);
-    });
+    for_each_eight(*in.candidates, of(FeatureKind::kFace), corner,
+                   [&](const Vec4Place* at, std::uint32_t used) PLEAT_KERNEL_LAMBDA {
+                     find_faces(at, used, flat);
+                     add_flat(rows, flat, kLanes, stats);
+                   });
     add_flat(rows, flat, 1, stats);
   }
 

@@ -12,7 +12,7 @@ PLEAT_KERNEL std::uint32_t limit_edges(const EdgeSlots& slots, float limit, floa
   constexpr float kShortest2 = 1e-18f;  // m2
   const float most = 1.0f + limit;
   std::uint32_t skipped = 0;
-  for_each_edge(slots, way, position, set, [&](const auto& edge) {
+  for_each_edge(slots, way, position, set, [&](const auto& edge) PLEAT_KERNEL_LAMBDA {
     const auto a = edge.end(0), b = edge.end(1);
     const auto d = b.vector - a.vector;
     const auto l2 = dot(d, d), longest = most * edge.rest_length(), weight = a.w + b.w;

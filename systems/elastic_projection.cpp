@@ -13,7 +13,7 @@ PLEAT_KERNEL void project(const ElasticProjection& in, VectorSet set) {
   const EdgeLine straight = in.law.straight(), buckled = in.law.buckled();
   const float dt2 = in.dt * in.dt, stiff = straight.stiffness * dt2, less_stiff = buckled.stiffness * dt2;  // kg
   const float damped = in.damping_rate * in.dt;
-  for_each_edge(in.garment->slots, in.way, *in.position, set, [&](const auto& edge) {
+  for_each_edge(in.garment->slots, in.way, *in.position, set, [&](const auto& edge) PLEAT_KERNEL_LAMBDA {
     const auto a = edge.end(0), b = edge.end(1);
     const auto d = b.vector - a.vector, before = edge.way();
     const auto rest = edge.rest_length(), l2 = dot(d, d), l = sqrt(l2), inertia = max(rest * l, decltype(l){} + kTiny);
