@@ -348,6 +348,7 @@ constexpr Row kRows[] = {
                         .position = t.position,
                         .velocity = t.velocity,
                         .dt = t.dt,
+                        .friction_dt = t.force_dt,
                         .held = t.world.held.view().from(t.cloth.particle_begin)});
      }},
     {Phase::kCheck, "energy_check", always, check_energy},

@@ -195,6 +195,7 @@ constexpr Row kRows[] = {
                                .velocity = t.velocity,
                                .inverse_mass = t.inverse_mass,
                                .dt = t.force_dt,
+                               .row_dt = t.dt,
                                .force = t.force});
      }},
 #endif

@@ -12,7 +12,7 @@ constexpr float kLeavingSpeed = 1e-3f;  // m/s
 
 bool ContactAcceleration::validate() const {
   return contacts.count != nullptr && (contacts.rows != nullptr || contacts.capacity == 0) && position.x != nullptr &&
-         velocity.x != nullptr && inverse_mass != nullptr && dt > 0.0f && force.x != nullptr;
+         velocity.x != nullptr && inverse_mass != nullptr && dt > 0.0f && row_dt > 0.0f && force.x != nullptr;
 }
 
 void ContactAcceleration::run() const {
@@ -21,7 +21,7 @@ void ContactAcceleration::run() const {
     const std::uint32_t i = row.particle[0];
     if (!row.at_particle() || inverse_mass[i] == 0.0f) continue;
     if (dot(row.normal, position[i]) - row.offset > kTouchingGap) continue;
-    const Vec3 relative = velocity[i] - row.body_step * (1.0f / dt);
+    const Vec3 relative = velocity[i] - row.body_step * (1.0f / row_dt);
     const float pressing = -dot(row.normal, force[i]);
     if (pressing <= 0.0f || dot(row.normal, relative) > kLeavingSpeed) continue;
 
@@ -29,7 +29,7 @@ void ContactAcceleration::run() const {
     const Vec3 would_be = relative + along * (inverse_mass[i] * dt);
     const Vec3 sliding = would_be - row.normal * dot(row.normal, would_be);
     const float speed = length(sliding);
-    const float holding = speed / (inverse_mass[i] * dt);  // N, what stops it within the substep
+    const float holding = speed / (inverse_mass[i] * dt);  // N, what stops it within the step
     const float taken = speed > 1e-12f ? std::min(holding, row.friction * pressing) / speed : 0.0f;
     force.set(i, along - sliding * taken);
   }

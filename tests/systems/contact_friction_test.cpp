@@ -35,7 +35,7 @@ struct Incline {
     ContactCloth& c = cloth;
     c.force.view().set(0, Vec3{0, -kGravity, 0} * (1.0f / c.inverse_mass[0]));
     if (constrain_acceleration) {
-      ContactAcceleration{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(),
+      ContactAcceleration{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(), kDt,
                           kDt,          c.force.view()}
           .run();
     }
@@ -158,7 +158,7 @@ TEST(ContactAcceleration, TakesOutTheForceIntoTheBodyOnly) {
     c.put(0, {0, kThickness + height, 0}, {});
     c.velocity.view().set(0, velocity);
     c.force.view().set(0, force);
-    const ContactAcceleration system{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(),
+    const ContactAcceleration system{c.contacts(), c.position.view(), c.velocity.view(), c.inverse_mass.data(), kDt,
                                      kDt,          c.force.view()};
     EXPECT_TRUE(system.validate());
     system.run();
@@ -168,6 +168,30 @@ TEST(ContactAcceleration, TakesOutTheForceIntoTheBodyOnly) {
   EXPECT_EQ(run({1, 2, 3}, {}, 0.0f), (Vec3{1, 2, 3})) << "pulled away";
   EXPECT_EQ(run({1, -2, 3}, {}, 0.001f), (Vec3{1, -2, 3})) << "not touching";
   EXPECT_EQ(run({1, -2, 3}, {0, 1, 0}, 0.0f), (Vec3{1, -2, 3})) << "leaving";
+}
+
+TEST(ContactAcceleration, ABodyIsAsFastWhereForcesActInShorterSteps) {
+  Incline belt(0.0f, 0.5f, true);
+  belt.plane_velocity = {2.0f, 0.0f, 0.0f};
+  ContactCloth& c = belt.cloth;
+  belt.add_row();
+  c.put(0, {0, kThickness, 0}, {});
+  const auto drag_at = [&](const Vec3& velocity) {
+    c.velocity.view().set(0, velocity);
+    c.force.view().set(0, {0, -1, 0});
+    const ContactAcceleration system{.contacts = c.contacts(),
+                                     .position = c.position.view(),
+                                     .velocity = c.velocity.view(),
+                                     .inverse_mass = c.inverse_mass.data(),
+                                     .dt = kDt / 4,
+                                     .row_dt = kDt,
+                                     .force = c.force.view()};
+    system.run();
+    return c.force.view()[0];
+  };
+  EXPECT_EQ(drag_at({2.0f, 0, 0}), (Vec3{})) << "carried along";
+  EXPECT_NEAR(drag_at({0, 0, 0}).x, 0.5f, 1e-6f);
+  EXPECT_NEAR(drag_at({3.0f, 0, 0}).x, -0.5f, 1e-6f);
 }
 
 }  // namespace

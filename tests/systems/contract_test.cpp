@@ -93,7 +93,7 @@ const Case kCases[] = {
      },
      {"force"}},
     {"RoundingHold",
-     [](Sheet& s) { RoundingHold{s.count, s.previous, s.position, s.velocity, kDt, held_column().view()}.run(); },
+     [](Sheet& s) { RoundingHold{s.count, s.previous, s.position, s.velocity, kDt, kDt, held_column().view()}.run(); },
      {}},
     {"AirDrag",
      [](Sheet& s) {

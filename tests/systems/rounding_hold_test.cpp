@@ -25,6 +25,7 @@ struct State {
             .position = position.view(),
             .velocity = velocity.view(),
             .dt = kDt,
+            .friction_dt = kDt,
             .held = held.view()};
   }
 };
@@ -43,6 +44,8 @@ TEST(RoundingHold, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = s.job(), bad.dt = 0.0f;
   EXPECT_FALSE(bad.validate());
+  bad = s.job(), bad.friction_dt = 0.0f;
+  EXPECT_FALSE(bad.validate());
 }
 
 TEST(RoundingHold, RemembersTheWayThatAPositionCouldNotGo) {
@@ -55,6 +58,13 @@ TEST(RoundingHold, RemembersTheWayThatAPositionCouldNotGo) {
   EXPECT_NEAR(s.held.view()[0].x, -2.0f * v.x * kDt * kW2, 1e-9f);
   EXPECT_EQ(s.held.view()[0].y, 0.0f);
   EXPECT_EQ(s.held.view()[0].z, 0.0f);
+
+  State split(1);  // a substep with four steps of forces, whose spring is as much stiffer
+  split.previous.view().set(0, x), split.position.view().set(0, x), split.velocity.view().set(0, v);
+  RoundingHold job = split.job();
+  job.friction_dt = kDt / 4;
+  job.run();
+  EXPECT_NEAR(split.held.view()[0].x, -v.x * kDt * 16 * kW2, 1e-9f);
 }
 
 TEST(RoundingHoldProperty, TheSpringKnowsTheWayOfAParticleThatWanders) {
