@@ -86,21 +86,27 @@ struct MeshTest {
     for (const std::uint32_t v : drawn) include(bulge, v, normal);
     const Box box = MeshPose::Corners{corner[0], corner[1], corner[2]}.box().grown(kept + bulge.reach);
     std::array<Found, kPlanesPerTriangle> found;
-    std::size_t planes = 0, nearest = 0;
-    for (const NearTriangle* body = in.near; body != in.near + count && planes < found.size(); ++body) {
+    std::size_t planes = 0;
+    const auto nearer = [](const Found& a, const Found& b) { return a.distance2 < b.distance2; };
+    for (const NearTriangle* body = in.near; body != in.near + count; ++body) {
       const float limit = kept + bulge.towards(*body);
       if (std::max(body->above, body->below) >= limit) continue;
       const MeshPose::Corners at{body->corner[0], body->corner[1], body->corner[2]};
       if (!box.overlaps(at.box()) || body->apart_from(corner[0], corner[1], corner[2]) >= limit) continue;
-      if (!meet(corner, *body, at, limit, found[planes])) continue;
-      if (found[planes].distance2 < found[nearest].distance2) nearest = planes;
-      ++planes;
+      Found next;
+      if (!meet(corner, *body, at, limit, next)) continue;
+      if (planes < found.size()) {
+        found[planes++] = next;
+      } else if (Found& farthest = *std::ranges::max_element(found, nearer); nearer(next, farthest)) {
+        farthest = next;
+      }
     }
     // From inside, only the nearest way out is right; from outside, what faces away is a far side.
-    for (std::size_t p = 0; p < planes; ++p) {
-      if (p != nearest && !(found[nearest].outside && found[p].outside)) continue;
-      std::copy(drawn.begin(), drawn.end(), found[p].plane.vertex);
-      in.planes.add(found[p].plane, in.drawn_position);
+    Found* const nearest = std::min_element(found.data(), found.data() + planes, nearer);
+    for (Found* p = found.data(); p != found.data() + planes; ++p) {
+      if (p != nearest && !(nearest->outside && p->outside)) continue;
+      std::copy(drawn.begin(), drawn.end(), p->plane.vertex);
+      in.planes.add(p->plane, in.drawn_position);
     }
   }
 

@@ -138,6 +138,18 @@ TEST(MeshClearance, AFlatBodyPushesStraightUpAcrossItsInnerEdges) {
   }
 }
 
+TEST(MeshClearance, WhatContactLeftInsideComesOutTheNearestWay) {
+  for (const std::uint32_t detail : {2u, 4u}) {  // a few triangles under each drawn one, and dozens
+    for (const float gap : {0.0f, -0.001f}) {
+      Sagging s(0.01f, under_sheet(icosphere(detail, 0.3f), 0.0f, 0.0f, gap));
+      const std::vector<Vec3> before = s.all_drawn();
+      s.run();
+      EXPECT_GE(s.least_distance(), kClearance - kRounding) << "detail " << detail << ", gap " << gap;
+      for (std::uint32_t v = 0; v < before.size(); ++v) EXPECT_LT(length(s.drawn(v) - before[v]), 0.02f);
+    }
+  }
+}
+
 TEST(MeshClearance, WhatIsOutsideIsUntouchedBitForBitAndNoPlaneIsKept) {
   for (const float sag : {-0.05f, 0.002f}) {  // away from the body; less than the gap allows
     Sagging s(sag, under_sheet(icosphere(2, 0.3f)));
