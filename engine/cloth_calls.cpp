@@ -176,6 +176,7 @@ pleat_result cloth_set_visible(pleat_world* handle, pleat_cloth cloth, uint32_t 
     ClothRecord& record = need_cloth(world, cloth);
     if (record.visible == (visible != 0)) return;
     record.visible = visible != 0;
+    record.sides_known = false;
     replan(world, record);
     if (record.visible) draw(world, record);
   });
@@ -245,7 +246,8 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     record.pin_velocity = {};
     record.declared_jump.reset();
     record.settling = kSettling;
-    record.self_pair_count = kNone;
+    record.sides_known = false;
+    forget_motion(world, record);
     forget_layer_pairs(world);
     refresh(world, record);
   });

@@ -198,14 +198,13 @@ void roll_back(ClothTick& t) {
   const std::size_t n = t.garment.particle_count;
   copy(t.position, t.start, n);
   copy(t.velocity, t.start_velocity, n);
-  if (t.world.held.size() != 0) clear(t.world.held.view().from(t.cloth.particle_begin), n);
-  t.cloth.self_pair_count = t.cloth.layer_pair_count = kNone;
-  t.cloth.bending_left = 0.0f;
+  forget_motion(t.world, t.cloth);
 }
 
-/// The cloth as it was when the tick began, at rest, carried to where its pins are.
+/// The cloth as it was when the tick began, at rest, carried to where its pins are at the tick's end.
 void fall_back(ClothTick& t) {
   roll_back(t);
+  t.t0 = t.t1 = 1.0f;
   const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
   clear(t.velocity, n);
   if (pins != 0) {
@@ -258,8 +257,11 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
       roll_back(t);
       run_substeps(t, n *= 2);
     }
+    if (t.trouble) {
+      worker.stats = before;
+      fall_back(t);
+    }
     ++worker.stats.rollbacks;
-    if (t.trouble) fall_back(t);
   }
   if (!t.loose && !t.deep) cloth.settling = 0.0f;
   run_phase(t, Phase::kFrameEnd);

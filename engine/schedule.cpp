@@ -172,7 +172,6 @@ void refresh(World& world, ClothRecord& cloth) {
                              .inverse_mass = world.particles.inverse_mass.data() + cloth.particle_begin};
   assert(bound.validate());
   cloth.rates = bound.run();
-  cloth.lowered = Notice::kNothing;
   cloth.bending_left = 0.0f;
   wake(cloth);
   cloth.plan = plan_of(world, cloth);

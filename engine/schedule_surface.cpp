@@ -92,8 +92,9 @@ constexpr Row kRows[] = {
                      .position = t.position,
                      .normal = t.normal,
                      .choices = &t.worker.fold_choices,
-                     .kept = t.frame_dt > 0.0f ? FoldSides::kept_after(t.frame_dt) : 0.0f,
+                     .kept = t.cloth.sides_known ? FoldSides::kept_after(t.frame_dt) : 0.0f,
                      .side = t.fold_side});
+       t.cloth.sides_known = true;
      }},
     {Phase::kFrameEnd, "edge_length", where_seen<with_folds>,
      [](ClothTick& t) {

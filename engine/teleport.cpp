@@ -54,7 +54,10 @@ void report_jump(ClothTick& t, const RigidMotion& jump) {
 void teleport(ClothTick& t) {
   ClothRecord& cloth = t.cloth;
   const bool declared = cloth.declared_jump.has_value();
-  if (declared) carry(t, *cloth.declared_jump);
+  if (declared) {
+    carry(t, *cloth.declared_jump);
+    cloth.pin_velocity = rotate(cloth.declared_jump->rotation, cloth.pin_velocity);
+  }
   cloth.declared_jump.reset();
   std::optional<RigidMotion> found;
   if (t.settings.teleport_speed > 0.0f && t.garment.pins.size() != 0) {

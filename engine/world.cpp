@@ -228,9 +228,17 @@ void remove_cloth(World& world, std::uint32_t position) {
   world.cloth_handles.remove(position);
 }
 
+void forget_motion(World& world, ClothRecord& cloth) {
+  const std::size_t particles = cloth.garment().particle_count;
+  if (world.held.size() != 0) clear(world.held.view().from(cloth.particle_begin), particles);
+  cloth.bending_left = 0.0f;
+  cloth.self_pair_count = cloth.layer_pair_count = kNone;
+}
+
 void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& settings) {
+  const pleat_cloth_settings& old = cloth.settings;
   want_pattern(world, *cloth.source, settings.level);
-  if (settings.level != cloth.settings.level) {
+  if (settings.level != old.level) {
     ClothRecord moved = cloth;
     moved.settings.level = settings.level;
     const std::size_t old_end = world.drawn.position.size();
@@ -239,9 +247,13 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
     close_drawn_gap(world, cloth);
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
   }
-  if (settings.self_distance != cloth.settings.self_distance) cloth.self_pair_count = kNone;
-  if (settings.layer != cloth.settings.layer || settings.thickness != cloth.settings.thickness) {
+  if (settings.self_distance != old.self_distance) cloth.self_pair_count = kNone;
+  if (settings.layer != old.layer || settings.thickness != old.thickness) {
     cloth.layer_pair_count = kNone;
+  }
+  if (settings.surface != old.surface) cloth.sides_known = false;
+  if (settings.stiffness != old.stiffness || settings.bend_stiffness != old.bend_stiffness) {
+    cloth.lowered = Notice::kNothing;
   }
   cloth.settings = settings;
   set_masses(world, cloth);

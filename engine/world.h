@@ -74,6 +74,7 @@ struct ClothRecord {
   float importance = 1.0f;                   // the host's, against other cloths; budget.h
   std::uint32_t given_up = 0;                // steps of detail
   float fold_share = 1.0f;                   // of their height, with which folds are drawn
+  bool sides_known = false;                  // to which folds went when they were last drawn
   float substep_share = 1.0f;                // that is taken of those wanted
   std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
   float bending_left = 0.0f;                 // s, for how much longer its force of bending is held
@@ -175,6 +176,8 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
 void remove_cloth(World& world, std::uint32_t position);
 /// Throws std::bad_alloc; unchanged then.
 void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& settings);
+/// Forgets how a cloth has moved: for another state that takes the place of its own.
+void forget_motion(World& world, ClothRecord& cloth);
 /// Bytes of state that this cloth alone takes.
 std::uint64_t bytes_of(const World& world, const ClothRecord& cloth);
 

@@ -93,6 +93,21 @@ TEST(HeldBending, ATickThatBreaksLeavesNeitherItNorInnerFrictionBehind) {
   EXPECT_EQ(w.step(4 * kSubstep), "fhhf");
 }
 
+TEST(HeldBending, NeitherItNorInnerFrictionOutlivesAStateThatIsPutInItsPlace) {
+  Watched calm, moved;
+  calm.scene.step(60);
+  const std::vector<float> state = calm.scene.particles(calm.cloth);
+  const float wind[3] = {3, 1, 2}, none[3] = {0, 0, 0};
+  must(call::world_set_wind(moved.scene, wind));
+  moved.scene.step(50);
+  must(call::world_set_wind(moved.scene, none));
+  for (Watched* w : {&calm, &moved}) {
+    must(call::cloth_write_particles(w->scene, w->cloth, state.data(), state.data() + 3 * 64, 64));
+    w->scene.step(5);
+  }
+  EXPECT_TRUE(same_bits(calm.scene.particles(calm.cloth), moved.scene.particles(moved.cloth)));
+}
+
 TEST(HeldBending, IsHeldAsLongAsThatIsStableAndNoLongerThanItsTime) {
   EXPECT_EQ(Watched().step(1.0f / 30), "fhhfhhfhhfhh");
   pleat_cloth_settings s = Scene::default_settings();

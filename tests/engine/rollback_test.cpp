@@ -1,6 +1,7 @@
 // Ticks that end badly begin anew, and where nothing helps the cloth stays as it was.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/engine/scene.h"
 
@@ -88,6 +89,26 @@ TEST(Rollback, WhereNothingHelpsTheClothStaysWithItsPins) {
                           [](const std::string& line) { return line.find("stays as it was") != std::string::npos; }),
             1);
 }
+
+#if defined(PLEAT_WITH_COLLISION) && defined(PLEAT_WITH_SMOOTHING)
+TEST(Rollback, WhereNothingHelpsTheClothIsDrawnBesideBodiesAsTheyAreAtTheEnd) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(8));
+  const pleat_collider ball = scene.sphere(0, -0.36f, 0.1f, 0.25f);
+  scene.step(60);
+  scene.inside().particles.velocity.y[20] = std::numeric_limits<float>::quiet_NaN();
+  const float away[] = {0, -5, 0.1f};
+  must(call::collider_move_capsule(scene, ball, away, away));
+  scene.step();
+  ASSERT_EQ(scene.stats().fallbacks, 1u);
+  EXPECT_EQ(scene.stats().particle_contacts + scene.stats().face_contacts, 0u) << "of what was given up";
+  const std::vector<float> drawn = scene.vertices(cloth);
+  const pleat_cloth_settings same = scene.settings(cloth);
+  must(call::cloth_set(scene, cloth, &same));  // draws it anew
+  const std::vector<float> anew = scene.vertices(cloth);
+  for (std::size_t i = 0; i < drawn.size(); ++i) ASSERT_NEAR(drawn[i], anew[i], 1e-5f) << i;
+}
+#endif
 
 TEST(Rollback, ATickThatBreaksCostsNoMoreThanThreeLongOnes) {
   Scene scene;

@@ -129,6 +129,22 @@ TEST(Teleport, TwentyTurnsASecondAreNoJump) {
   EXPECT_EQ(scene.stats().teleports, 0u);
 }
 
+TEST(Teleport, ADeclaredTurnOfATrainIsNoSecondJump) {
+  const RigidMotion ahead{{0, 0, 0}, {1, 0, 0}, {}}, aside{{0, 0, 0}, {0, 0, -1}, {}};  // 60 m/s
+  const RigidMotion turn{{0, 0, 0}, {0, 0, 0}, {0, 0.70710678f, 0, 0.70710678f}};       // that brings x to -z
+  Hanging stays, turns;
+  for (Hanging* scene : {&stays, &turns}) {
+#ifdef PLEAT_WITH_COLLISION
+    must(call::collider_destroy(*scene, scene->ball));
+    scene->ball = scene->sphere(0, -50, 0, 0.1f);
+#endif
+    for (int i = 0; i < 5; ++i) scene->place(ahead), scene->step();
+  }
+  stays.place(ahead), stays.step();
+  turns.declare(turn), turns.place(turn), turns.place(aside), turns.step();
+  EXPECT_LT(distance_after(turn, stays.particles(stays.cloth_id), turns.particles(turns.cloth_id)), 1e-3f);
+}
+
 TEST(Teleport, TheLogSaysOnceThatAJumpWasFound) {
   std::vector<std::string> lines;
   pleat_world_def def = Scene::default_def();
