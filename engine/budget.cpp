@@ -1,9 +1,9 @@
 #include "engine/budget.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "engine/run.h"
 #include "engine/schedule.h"
 #include "systems/detail_choice.h"
 
@@ -59,12 +59,10 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
   }
   // What nobody sees has nothing to give, and takes its part.
   const float left = std::max(budget_ms - world.pace * unseen, kLeastShare * budget_ms);
-  const DetailChoice choice{.candidates = {world.detail.data(), count},
-                            .order = {world.detail_order.data(), count},
-                            .budget = left,
-                            .pace = world.pace};
-  assert(choice.validate());
-  choice.run();
+  run(DetailChoice{.candidates = {world.detail.data(), count},
+                   .order = {world.detail_order.data(), count},
+                   .budget = left,
+                   .pace = world.pace});
   count = 0;
   for (ClothRecord& cloth : world.clothes) cloth.given_up = cloth.visible ? world.detail[count++].given_up : 0;
 }

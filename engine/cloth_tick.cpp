@@ -11,6 +11,7 @@
 #include "components/tethers.h"
 #include "components/wide.h"
 #include "engine/budget.h"
+#include "engine/run.h"
 #include "engine/sleep.h"
 #include "systems/frequency_bound.h"
 #include "systems/largest_stretch.h"
@@ -34,9 +35,9 @@ constexpr int kRetries = 2;                   // of a tick that went wrong, each
 /// A start that is stretched or inside a body, as garments made for another body are, is pulled together and pushed out
 /// before it may move: the strain limit and the contacts would turn that into speed.
 void begin_settling(ClothTick& t) {
-  const LargestStretch stretch{.garment = &t.garment, .position = t.position, .inverse_mass = t.inverse_mass};
-  assert(stretch.validate());
-  t.loose = t.settings.stretch_limit < 1.0f && stretch.run() > t.settings.stretch_limit + kLooseStart;
+  t.loose = t.settings.stretch_limit < 1.0f &&
+            run(LargestStretch{.garment = &t.garment, .position = t.position, .inverse_mass = t.inverse_mass}) >
+                t.settings.stretch_limit + kLooseStart;
   t.cloth.settling = std::max(t.cloth.settling - t.frame_dt, 0.0f);
 }
 
@@ -98,17 +99,15 @@ void run_substep(ClothTick& t) {
 std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
 #ifdef PLEAT_WITH_COLLISION
   if (t.world.capsules.size() == 0 && t.world.meshes.empty()) return 1;
-  const SubstepBound bound{.particle_count = t.garment.particle_count,
-                           .position = t.position,
-                           .velocity = t.velocity,
-                           .capsules = &t.world.capsules,
-                           .bodies = t.world.bodies.get(),
-                           .meshes = t.world.mesh_pointers.data(),
-                           .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
-                           .thickness = t.settings.thickness,
-                           .dt = dt};
-  assert(bound.validate());
-  return bound.run();
+  return run(SubstepBound{.particle_count = t.garment.particle_count,
+                          .position = t.position,
+                          .velocity = t.velocity,
+                          .capsules = &t.world.capsules,
+                          .bodies = t.world.bodies.get(),
+                          .meshes = t.world.mesh_pointers.data(),
+                          .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
+                          .thickness = t.settings.thickness,
+                          .dt = dt});
 #else
   return 1;
 #endif
@@ -208,12 +207,10 @@ void fall_back(ClothTick& t) {
   const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
   clear(t.velocity, n);
   if (pins != 0) {
-    const RigidCarry carry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
-                           .particle_count = n,
-                           .position = t.position,
-                           .velocity = t.velocity};
-    assert(carry.validate());
-    carry.run();
+    run(RigidCarry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
+                   .particle_count = n,
+                   .position = t.position,
+                   .velocity = t.velocity});
   }
   for (std::size_t k = 0; k < pins; ++k) t.position.set(t.garment.pins[k], t.pin_next[k]);
   ++t.worker.stats.fallbacks;

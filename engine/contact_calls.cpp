@@ -1,8 +1,7 @@
 // What a host may ask about a cloth and the bodies it touches.
-#include <cassert>
-
 #include "engine/border.h"
 #include "engine/calls.h"
+#include "engine/run.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/crossings.h"
 #include "systems/penetration.h"
@@ -14,18 +13,16 @@ namespace {
 #ifdef PLEAT_WITH_COLLISION
 void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {
   const bool drawn = cloth.pattern() != nullptr && cloth.visible;
-  const Penetration penetration{
-      .garment = &cloth.garment(),
-      .position = world.particles.position.view().from(cloth.particle_begin),
-      .pattern = drawn ? cloth.pattern() : nullptr,
-      .drawn_position = drawn ? world.drawn.position.view().from(cloth.drawn_begin) : ConstVec3View{},
-      .capsules = &world.capsules,
-      .planes = world.planes.data(),
-      .plane_count = world.planes.size(),
-      .meshes = world.mesh_pointers.data(),
-      .bodies = world.bodies.get()};
-  assert(penetration.validate());
-  const PenetrationDepths depths = penetration.run();
+  const PenetrationDepths depths =
+      run(Penetration{.garment = &cloth.garment(),
+                      .position = world.particles.position.view().from(cloth.particle_begin),
+                      .pattern = drawn ? cloth.pattern() : nullptr,
+                      .drawn_position = drawn ? world.drawn.position.view().from(cloth.drawn_begin) : ConstVec3View{},
+                      .capsules = &world.capsules,
+                      .planes = world.planes.data(),
+                      .plane_count = world.planes.size(),
+                      .meshes = world.mesh_pointers.data(),
+                      .bodies = world.bodies.get()});
   report.pins_inside = depths.pins_inside;
   report.particle_depth = depths.particle;
   report.pin_depth = depths.pin;
@@ -44,9 +41,7 @@ PosedCloth posed(const World& world, const ClothRecord& cloth) {
 }
 
 std::size_t crossings(const World& world, const ClothRecord& edges, const ClothRecord& faces) {
-  const Crossings search{posed(world, edges), posed(world, faces), &edges == &faces, &world.workers[0].near_scratch};
-  assert(search.validate());
-  return search.run();
+  return run(Crossings{posed(world, edges), posed(world, faces), &edges == &faces, &world.workers[0].near_scratch});
 }
 
 void add_crossings(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {

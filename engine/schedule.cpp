@@ -1,13 +1,13 @@
 #include "engine/schedule.h"
 
 #include <algorithm>
-#include <cassert>
 #include <string>
 #include <utility>
 
 #include "engine/cloth_tick.h"
 #include "engine/layers.h"
 #include "engine/room.h"
+#include "engine/run.h"
 #include "engine/schedule_table.h"
 #include "engine/sleep.h"
 #include "systems/frequency_bound.h"
@@ -168,10 +168,8 @@ ClothTick::ClothTick(World& w, Worker& scratch, ClothRecord& c)
 
 void refresh(World& world, ClothRecord& cloth) {
   make_room(world, cloth);
-  const FrequencyBound bound{.garment = &cloth.garment(),
-                             .inverse_mass = world.particles.inverse_mass.data() + cloth.particle_begin};
-  assert(bound.validate());
-  cloth.rates = bound.run();
+  cloth.rates = run(FrequencyBound{.garment = &cloth.garment(),
+                                   .inverse_mass = world.particles.inverse_mass.data() + cloth.particle_begin});
   cloth.bending_left = 0.0f;
   wake(cloth);
   cloth.plan = plan_of(world, cloth);

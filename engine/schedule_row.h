@@ -1,8 +1,7 @@
-// What the files of the schedule's rows share: running a system, and why a row may be left out.
+// What the files of the schedule's rows share: above all, why a row may be left out.
 #pragma once
 
-#include <cassert>
-
+#include "engine/run.h"
 #include "engine/schedule_table.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collider_motion.h"
@@ -10,12 +9,6 @@
 #endif
 
 namespace pleat {
-
-template <class System, class... Counters>
-void run(const System& system, Counters&... counters) {
-  assert(system.validate());
-  system.run(counters...);
-}
 
 constexpr const char* kNeeded = nullptr;
 inline const char* always(const World&, const ClothRecord&) { return kNeeded; }

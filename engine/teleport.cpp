@@ -61,14 +61,12 @@ void teleport(ClothTick& t) {
   cloth.declared_jump.reset();
   std::optional<RigidMotion> found;
   if (t.settings.teleport_speed > 0.0f && t.garment.pins.size() != 0) {
-    const PinJump jump{.count = t.garment.pins.size(),
-                       .previous = t.pin_previous,
-                       .next = t.pin_next,
-                       .dt = t.frame_dt,
-                       .speed = t.settings.teleport_speed,
-                       .velocity = &cloth.pin_velocity};
-    assert(jump.validate());
-    found = jump.run();
+    found = run(PinJump{.count = t.garment.pins.size(),
+                        .previous = t.pin_previous,
+                        .next = t.pin_next,
+                        .dt = t.frame_dt,
+                        .speed = t.settings.teleport_speed,
+                        .velocity = &cloth.pin_velocity});
     if (found) carry(t, *found), report_jump(t, *found);
   }
   if (declared || found) ++t.worker.stats.teleports;

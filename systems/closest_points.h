@@ -30,6 +30,11 @@ struct Barycentrics {
   float a, b, c;
 
   Vec3 point(const Vec3& pa, const Vec3& pb, const Vec3& pc) const { return pa * a + pb * b + pc * c; }
+  /// How many are zero: 0 inside the triangle, 1 on an edge, 2 at a corner.
+  int zeros() const { return (a == 0.0f) + (b == 0.0f) + (c == 0.0f); }
+  /// At which corner, where two are zero; on which edge, from corner k to the next, where one is.
+  int corner() const { return a > 0.0f ? 0 : b > 0.0f ? 1 : 2; }
+  int edge() const { return c == 0.0f ? 0 : a == 0.0f ? 1 : 2; }
 };
 
 /// The point of triangle abc closest to p.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "components/hinge_gradient.h"
+
 namespace pleat {
 namespace {
 
@@ -14,13 +16,9 @@ constexpr float kSpare = 0.8f;  // of the longest stable step
 std::array<float, 4> gradient(const Garment& g, std::uint32_t h) {
   const ConstVec3View x = g.rest_position.view();
   const auto at = [&](std::size_t k) { return x[g.hinge_particle[k][h]]; };
-  const Vec3 e = at(1) - at(0);
-  const Vec3 na = cross(e, at(2) - at(0)), nb = cross(at(3) - at(0), e);
-  const float na2 = dot(na, na), nb2 = dot(nb, nb), l = length(e);
-  if (na2 < 4e-24f || nb2 < 4e-24f || l < 1e-9f) return {};
-  const Vec3 u = e * (1.0f / l), a = na * (1.0f / na2), b = nb * (1.0f / nb2);
-  return {length(a * dot(at(2) - at(1), u) + b * dot(at(3) - at(1), u)),
-          length(a * dot(at(2) - at(0), u) + b * dot(at(3) - at(0), u)), l * length(a), l * length(b)};
+  const HingeGradient<float> hinge(at(0), at(1), at(2), at(3));
+  if (!hinge.has_extent) return {};
+  return {length(hinge.at[0]), length(hinge.at[1]), length(hinge.at[2]), length(hinge.at[3])};
 }
 
 float sum(const std::array<float, 4>& size) { return size[0] + size[1] + size[2] + size[3]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "components/hinge_gradient.h"
 #include "components/wide.h"
 #include "systems/angle.h"
 
@@ -21,32 +22,24 @@ PLEAT_KERNEL void turn(const HingeBending& in, std::uint32_t begin, float safe_r
   const Garment& g = *in.garment;
   MotionLanes at[4];
   for (std::size_t k = 0; k < 4; ++k) at[k] = gather(in.packed->motion.data(), g.hinge_particle[k].data() + begin);
-  const Vec3Lanes &x0 = at[0].position, &x1 = at[1].position, &x2 = at[2].position, &x3 = at[3].position;
-  const Vec3Lanes e = x1 - x0;
-  const Vec3Lanes na = cross(e, x2 - x0), nb = cross(x3 - x0, e);
-  const Lanes na2 = dot(na, na), nb2 = dot(nb, nb), e_length = sqrt(dot(e, e)), one = all(1.0f);
-  const LaneMask has_extent = (min(na2, nb2) >= 4e-24f) & (e_length >= 1e-9f);
-
-  const Vec3Lanes u = e * (1.0f / (has_extent ? e_length : one));
-  const Vec3Lanes a = na * (1.0f / (has_extent ? na2 : one)), b = nb * (1.0f / (has_extent ? nb2 : one));
-  const Vec3Lanes gradient[4] = {-(a * dot(x2 - x1, u) + b * dot(x3 - x1, u)),
-                                 a * dot(x2 - x0, u) + b * dot(x3 - x0, u), a * -e_length, b * -e_length};
+  const HingeGradient<Lanes> hinge(at[0].position, at[1].position, at[2].position, at[3].position);
   Lanes yielding{}, speed{};
   for (std::size_t k = 0; k < 4; ++k) {
-    yielding += at[k].inverse_mass * dot(gradient[k], gradient[k]);
-    speed += dot(gradient[k], at[k].velocity);
+    yielding += at[k].inverse_mass * dot(hinge.at[k], hinge.at[k]);
+    speed += dot(hinge.at[k], at[k].velocity);
   }
-  const LaneMask bends = has_extent & (yielding > 0.0f);
+  const Lanes one = all(1.0f);
+  const LaneMask bends = hinge.has_extent & (yielding > 0.0f);
   const Lanes yields = bends ? yielding : one, here = bends ? one : Lanes{};
 
-  const Lanes theta = angle_of(-e_length * dot(na, x3 - x0), dot(na, nb));
+  const Lanes theta = angle_of(-hinge.length * dot(hinge.na, at[3].position - at[0].position), dot(hinge.na, hinge.nb));
   const Lanes inverse = 1.0f / yields;
   const Lanes highest = bound * inverse, stiffness = in.stiffness * load(g.hinge_bound.data() + begin);
   out.softness = one;
   if (any(stiffness > highest)) out.softness = stiffness > highest ? sqrt(highest / stiffness) : one;
   const Lanes stepped = min(step_damping * stiffness, (0.2f / in.dt) * inverse);
   out.damping = max(safe_rate * inverse, stepped) * speed;
-  for (std::size_t k = 0; k < 4; ++k) out.gradient[k] = gradient[k] * here;
+  for (std::size_t k = 0; k < 4; ++k) out.gradient[k] = hinge.at[k] * here;
   store(here * (out.softness * angle_between(theta, load(g.hinge_rest_angle.data() + begin))), turned + begin);
 }
 

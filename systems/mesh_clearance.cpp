@@ -120,9 +120,9 @@ struct MeshTest {
     if (distance2 >= limit * limit) return false;
     const bool touches = distance2 < kTouching * kTouching;
     if (!touches && !is_extreme(body.index, pair.second, surface, away)) return false;
-    const Vec3 outward = zeros(pair.second) == 0 ? body.normal : pose.outward(body.index, pair.second).normal;
+    const Vec3 outward = pair.second.zeros() == 0 ? body.normal : pose.outward(body.index, pair.second).normal;
     const float side = dot(away, outward) < 0.0f ? -1.0f : 1.0f;
-    const bool own_normal = touches || zeros(pair.second) == 0;
+    const bool own_normal = touches || pair.second.zeros() == 0;
     const Vec3 normal = normalized_or(own_normal ? outward : away * side, Vec3{});
     if (normal == Vec3{}) return false;
     if (side < 0.0f && distance2 > pose.mesh.depth * pose.mesh.depth) return false;
@@ -130,16 +130,12 @@ struct MeshTest {
     return true;
   }
 
-  static int zeros(const Barycentrics& w) { return (w.a == 0.0f) + (w.b == 0.0f) + (w.c == 0.0f); }
-  static int corner_of(const Barycentrics& w) { return w.a > 0.0f ? 0 : w.b > 0.0f ? 1 : 2; }
-  static int edge_of(const Barycentrics& w) { return w.c == 0.0f ? 0 : w.a == 0.0f ? 1 : 2; }
-
   /// The body does not come closer in the triangles around the point, seen in the direction `away`.
   bool is_extreme(std::uint32_t t, const Barycentrics& w, const Vec3& surface, const Vec3& away) const {
-    if (zeros(w) == 0) return true;
+    if (w.zeros() == 0) return true;
     const Vec3 direction = normalized_or(away, Vec3{});
-    if (zeros(w) == 2) return pose.is_extreme(pose.corner(t, corner_of(w)), direction, kFlatSlope);
-    const std::uint32_t across = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(edge_of(w))];
+    if (w.zeros() == 2) return pose.is_extreme(pose.corner(t, w.corner()), direction, kFlatSlope);
+    const std::uint32_t across = pose.topology.neighbour[3 * t + static_cast<std::uint32_t>(w.edge())];
     if (across == kNoTriangle) return true;
     for (int k = 0; k < 3; ++k) {
       const Vec3 d = pose.vertex(pose.corner(across, k)) - surface;

@@ -21,10 +21,9 @@ Vec3 MeshPose::edge_normal(std::uint32_t triangle, int k) const {
 }
 
 MeshPose::Outward MeshPose::outward(std::uint32_t triangle, const Barycentrics& at) const {
-  const int zeros = (at.a == 0.0f) + (at.b == 0.0f) + (at.c == 0.0f);
-  if (zeros == 2) return {vertex_normal(corner(triangle, at.a > 0.0f ? 0 : at.b > 0.0f ? 1 : 2)), false, false};
-  if (zeros == 0) return {corners(triangle).normal(), true, false};
-  const int k = at.c == 0.0f ? 0 : at.a == 0.0f ? 1 : 2;
+  if (at.zeros() == 2) return {vertex_normal(corner(triangle, at.corner())), false, false};
+  if (at.zeros() == 0) return {corners(triangle).normal(), true, false};
+  const int k = at.edge();
   const bool border = topology.neighbour[3 * triangle + static_cast<std::uint32_t>(k)] == kNoTriangle;
   return {edge_normal(triangle, k), false, border};
 }
