@@ -25,9 +25,11 @@ void add(const NearSearch& in, NearPair pair, float rest_distance, Stats& stats)
   in.pairs.pairs[(*in.pairs.count)++] = pair;
 }
 
-/// Brings the memory to the pairs with this second feature.
+/// Brings the memory to the pairs of this cloth with this second feature.
 void remember(const NearSearch& in, NearKind kind, std::uint32_t second) {
-  const auto earlier = [&](const NearPair& p) { return p.kind != kind ? p.kind < kind : p.second < second; };
+  const auto earlier = [&](const NearPair& p) {
+    return std::tie(p.cloth, p.kind, p.second) < std::tie(in.cloth, kind, second);
+  };
   while (in.memory->next != in.memory->end && earlier(*in.memory->next)) ++in.memory->next;
 }
 

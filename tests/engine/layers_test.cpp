@@ -134,8 +134,13 @@ TEST(Layers, SurviveComingAndGoingOfCloths) {
   scene.step(10), alone.step(10);
   EXPECT_EQ(report(scene, upper).layer_crossings, 0u);
   must(call::cloth_destroy(scene, lower));
+  scene.step();
+  const pleat_contact_report none = report(scene, upper);
+  EXPECT_EQ(none.particle_contacts + none.face_contacts, 0u);
   scene.cloth(garment, in_layer(1));
   scene.step(10);
+  const pleat_contact_report again = report(scene, upper);
+  EXPECT_GT(again.particle_contacts + again.face_contacts, 0u);
   EXPECT_EQ(scene.stats().nonfinite_restored, 0u);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "systems/box.h"
 #include "systems/collision_response.h"
 #include "systems/layer_candidates.h"
@@ -38,7 +40,7 @@ struct Layered {
     scratch.grid.make_room(64);
   }
   NearPairList list() { return {pairs.data(), 512, &pair_count}; }
-  void substep(float t0, float t1) {
+  void search(float t0, float t1) {
     const LayerCandidates search{.garment = &own.garment,
                                  .position = own.position.view(),
                                  .previous = own.previous.view(),
@@ -53,6 +55,8 @@ struct Layered {
                                  .scratch = &scratch};
     ASSERT_TRUE(search.validate());
     search.run(stats);
+  }
+  void detect(float t0, float t1) {
     own.row_count = 0;
     const LayerDetection detection{.garment = &own.garment,
                                    .position = own.position.view(),
@@ -67,12 +71,32 @@ struct Layered {
                                    .contacts = own.contacts()};
     ASSERT_TRUE(detection.validate());
     detection.run(stats);
+  }
+  void substep(float t0, float t1) {
+    search(t0, t1);
+    detect(t0, t1);
     for (int sweep = 0; sweep < 10; ++sweep) own.run(CollisionResponse{.contacts = own.contacts()}, stats);
+  }
+  /// Of the pairs with one of the cloths, those whose side is known.
+  std::size_t sides(std::uint32_t cloth) const {
+    return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.begin() + pair_count, [&](const NearPair& p) {
+      return p.cloth == cloth && p.side != 0.0f;
+    }));
+  }
+  /// Everything of the cloth as much further on.
+  void move(const Vec3& step) {
+    for (std::uint32_t i = 0; i < own.garment.particle_count; ++i) own.put(i, own.x(i) + step, own.x(i));
   }
 };
 
 const std::vector<Vec3> kFloor = {{-0.1f, 0, -0.1f}, {-0.1f, 0, 0.2f}, {0.2f, 0, -0.1f}};
 const std::vector<Vec3> kTip = {{0, 0.012f, 0}, {0.05f, 0.3f, 0}, {0, 0.3f, 0.05f}};
+
+std::vector<Vec3> roof() {
+  std::vector<Vec3> roof = kFloor;
+  for (Vec3& p : roof) p.y = 0.012f;
+  return roof;
+}
 
 TEST(LayerDetection, AParticleIsCarriedByTheFaceBelow) {
   Layered scene(ContactCloth(kTip, {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {0.01f, 0.02f, 0});
@@ -90,10 +114,9 @@ TEST(LayerDetection, AParticleIsCarriedByTheFaceBelow) {
 }
 
 TEST(LayerDetection, AFaceRestsOnAParticleBelow) {
-  std::vector<Vec3> roof = kFloor, tip = kTip;
-  for (Vec3& p : roof) p.y = 0.012f;
+  std::vector<Vec3> tip = kTip;
   for (Vec3& p : tip) p.y = -p.y + 0.012f;  // its tip is at 0, the rest hangs down
-  Layered scene(ContactCloth(roof, {{0, 1, 2}}), ContactCloth(tip, {{0, 1, 2}}), {0, 0.03f, 0});
+  Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(tip, {{0, 1, 2}}), {0, 0.03f, 0});
   for (int s = 0; s < 8; ++s) {
     for (std::uint32_t i = 0; i < 3; ++i) scene.own.put(i, scene.own.x(i), scene.own.x(i));
     scene.substep(static_cast<float>(s) / 8, static_cast<float>(s + 1) / 8);
@@ -116,6 +139,44 @@ TEST(LayerDetection, EdgesCarryEdges) {
   ASSERT_EQ(scene.own.row_count, 1u);
   EXPECT_EQ(scene.own.rows[0].count, 2u);
   EXPECT_FALSE(scene.own.rows[0].at_particle());
+}
+
+TEST(LayerCandidates, SidesOfEachClothBelowAreRemembered) {
+  for (const bool first_goes : {false, true}) {
+    Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {});
+    scene.clothes[0] = scene.clothes[1];  // two that lie in the same place
+    scene.search(0.0f, 1.0f);
+    scene.detect(0.0f, 1.0f);
+    const std::size_t known = scene.sides(1);
+    ASSERT_GT(known, 0u);
+    ASSERT_EQ(scene.sides(0), known);
+    if (first_goes) scene.clothes[0] = {};
+    scene.search(0.0f, 1.0f);
+    EXPECT_EQ(scene.sides(0), first_goes ? 0 : known);
+    EXPECT_EQ(scene.sides(1), known) << first_goes;
+  }
+}
+
+TEST(LayerCandidates, PairsAreSoughtAnewWhereTheClothsMovedAgainstEachOther) {
+  const ContactCloth floor(kFloor, {{0, 1, 2}});
+  const float margin = 0.15f * floor.garment.mean_edge_length;
+  struct Case {
+    float own, below;  // how far each moves in half a tick, in margins
+    bool anew;
+  };
+  for (const auto& [own, below, anew] : {Case{0.0f, 0.0f, false}, Case{0.9f, 0.0f, false}, Case{1.1f, 0.0f, true},
+                                         Case{0.0f, 0.9f, false}, Case{0.0f, 1.1f, true}, Case{3.0f, 3.0f, false}}) {
+    Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {2.0f * below * margin, 0, 0});
+    scene.search(0.0f, 0.5f);
+    const auto forget = [&] { scene.pair_count = 0; };  // so that a search shows
+    forget();
+    scene.move({own * margin, 0, 0});
+    scene.search(0.5f, 1.0f);
+    EXPECT_EQ(scene.pair_count != 0, anew) << own << " " << below;
+    forget();
+    scene.search(0.0f, 0.5f);
+    EXPECT_GT(scene.pair_count, 0u) << "a new tick";
+  }
 }
 
 TEST(LayerDetection, WithoutAreaThereIsNoRowAndNothingNotFinite) {
