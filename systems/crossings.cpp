@@ -31,14 +31,8 @@ bool Crossings::validate() const {
 
 std::size_t Crossings::run() const {
   const auto& end = edges.garment->edge_particle;
-  const Vec3View middles = scratch->middle.view();
-  float longest = 0.0f;  // half of it, m
-  for (std::uint32_t e = 0; e < edges.garment->edge_count; ++e) {
-    const Vec3 p = edges.position[end[0][e]], q = edges.position[end[1][e]];
-    middles.set(e, (p + q) * 0.5f);
-    longest = std::max(longest, 0.5f * length(q - p));
-  }
-  const PointGrid grid(middles, edges.garment->edge_count, 2.0f * longest, scratch->grid);
+  const float longest = file_middles(edges, *scratch);  // half of it, m
+  const PointGrid grid(scratch->middle.view(), edges.garment->edge_count, 2.0f * longest, scratch->grid);
   std::size_t count = 0;
   for (std::uint32_t f = 0; f < faces.garment->face_count; ++f) {
     std::uint32_t corner[3];

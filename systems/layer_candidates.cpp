@@ -8,40 +8,22 @@
 namespace pleat {
 namespace {
 
-constexpr float kMarginShare = 0.15f;  // of the mean edge length
-constexpr float kOverlapShare = 0.1f;  // of the mean edge length: so far beside a face it is still touched
+/// The furthest that a particle of either moves against one of the other, m: from one position to another, and between
+/// two fractions of the tick.
+float relative_motion(const LayerCandidates& in, ConstVec3View from, float t_from, const LayerCloth& other) {
+  const Vec3 mean = mean_motion(from, in.position, in.garment->particle_count);
+  return largest_motion(mean, from, in.position, in.garment->particle_count) +
+         largest_motion(mean, other.begin, other.end, other.garment->particle_count, in.t1 - t_from);
+}
 
 bool is_below(const LayerCloth& other, std::uint32_t layer) { return other.layer > 0 && other.layer < layer; }
 
 Box box_around(const LayerCloth& other) { return {other.low, other.high}; }
 
-/// The furthest that a particle of either moves against one of the other, m: from one position to another, and between
-/// two fractions of the tick.
-float relative_motion(const LayerCandidates& in, ConstVec3View from, float t_from, const LayerCloth& other) {
-  const std::uint32_t count = in.garment->particle_count;
-  Vec3 sum;
-  for (std::uint32_t i = 0; i < count; ++i) sum += in.position[i] - from[i];
-  const Vec3 mean = sum * (1.0f / static_cast<float>(count));
-  float own2 = 0.0f, other2 = 0.0f;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 d = in.position[i] - from[i] - mean;
-    own2 = std::max(own2, dot(d, d));
-  }
-  for (std::uint32_t i = 0; i < other.garment->particle_count; ++i) {
-    const Vec3 d = (other.end[i] - other.begin[i]) * (in.t1 - t_from) - mean;
-    other2 = std::max(other2, dot(d, d));
-  }
-  return std::sqrt(own2) + std::sqrt(other2);
-}
-
-float margin_of(const LayerCandidates& in, const LayerCloth& other) {
-  return kMarginShare * std::max(in.garment->mean_edge_length, other.garment->mean_edge_length);
-}
-
 /// All of one cloth below.
 void search(const LayerCandidates& in, std::uint32_t cloth, const Box& box, NearMemory& memory, Stats& stats) {
   const LayerCloth& other = in.clothes[cloth];
-  const float margin = margin_of(in, other);
+  const float margin = near_margin(*in.garment, *other.garment);
   // What crosses in this substep is no further beyond than it has moved.
   const float reach = std::max(2.0f * in.distance + margin, relative_motion(in, in.previous, in.t0, other));
   if (!box.grown(reach + margin).overlaps(box_around(other))) return;
@@ -56,7 +38,6 @@ void search(const LayerCandidates& in, std::uint32_t cloth, const Box& box, Near
                   .cloth = cloth,
                   .distance = in.distance,
                   .reach = reach,
-                  .wide = kOverlapShare * margin / kMarginShare + margin,
                   .scratch = in.scratch,
                   .memory = &memory,
                   .pairs = in.pairs};
@@ -79,7 +60,7 @@ void LayerCandidates::run(Stats& stats) const {
   const Box box = box_of(position, garment->particle_count);
   const auto still_holds = [&](const LayerCloth& other) {
     if (!is_below(other, layer)) return true;
-    const float margin = margin_of(*this, other);
+    const float margin = near_margin(*garment, *other.garment);
     return !box.grown(2.0f * distance + 2.0f * margin).overlaps(box_around(other)) ||
            relative_motion(*this, sought_at, *t_sought, other) <= margin;
   };

@@ -8,7 +8,13 @@
 namespace pleat {
 namespace {
 
-constexpr float kRestShare = 0.5f;  // of the distance at rest that a pair of one cloth may keep
+constexpr float kMarginShare = 0.15f;  // of the mean edge length
+constexpr float kOverlapShare = 0.1f;  // of the mean edge length: so far beside a face it is still touched
+constexpr float kRestShare = 0.5f;     // of the distance at rest that a pair of one cloth may keep
+
+float mean_edge(const Garment& first, const Garment& second) {
+  return std::max(first.mean_edge_length, second.mean_edge_length);
+}
 
 void add(const NearSearch& in, NearPair pair, float rest_distance, Stats& stats) {
   if (*in.pairs.count == in.pairs.capacity) {
@@ -93,12 +99,41 @@ float rest_distance_between(const Garment& g, const Edge& a, const Edge& b) {
 
 }  // namespace
 
+float near_margin(const Garment& first, const Garment& second) { return kMarginShare * mean_edge(first, second); }
+
+Vec3 mean_motion(ConstVec3View from, ConstVec3View to, std::uint32_t count) {
+  Vec3 sum;
+  for (std::uint32_t i = 0; i < count; ++i) sum += to[i] - from[i];
+  return sum * (1.0f / static_cast<float>(count));
+}
+
+float largest_motion(const Vec3& mean, ConstVec3View from, ConstVec3View to, std::uint32_t count, float part) {
+  float most2 = 0.0f;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3 d = (to[i] - from[i]) * part - mean;
+    most2 = std::max(most2, dot(d, d));
+  }
+  return std::sqrt(most2);
+}
+
+float file_middles(const PosedCloth& cloth, NearScratch& scratch) {
+  const Vec3View middles = scratch.middle.view();
+  float longest = 0.0f;  // half of it
+  for (std::uint32_t e = 0; e < cloth.garment->edge_count; ++e) {
+    const Edge edge(cloth, e);
+    middles.set(e, edge.middle());
+    longest = std::max(longest, edge.half_length());
+  }
+  return longest;
+}
+
 std::size_t NearSearch::most_points(const Garment& garment) {
   return std::max(garment.particle_count, garment.edge_count);
 }
 
 void NearSearch::find_particle_face(NearKind kind, Stats& stats) const {
   const Garment& g = *second.garment;
+  const float wide = kOverlapShare * mean_edge(*first.garment, g) + near_margin(*first.garment, g);
   const float around = std::max(reach, wide);
   const PointGrid grid(first.position, first.garment->particle_count, g.mean_edge_length + around, scratch->grid);
   for (std::uint32_t f = 0; f < g.face_count; ++f) {
@@ -112,15 +147,8 @@ void NearSearch::find_particle_face(NearKind kind, Stats& stats) const {
 }
 
 void NearSearch::find_edges(Stats& stats) const {
-  const std::uint32_t first_count = first.garment->edge_count;
-  const Vec3View middles = scratch->middle.view();
-  float longest = 0.0f;  // half of it
-  for (std::uint32_t e = 0; e < first_count; ++e) {
-    const Edge edge(first, e);
-    middles.set(e, edge.middle());
-    longest = std::max(longest, edge.half_length());
-  }
-  const PointGrid grid(middles, first_count, longest + reach, scratch->grid);
+  const float longest = file_middles(first, *scratch);  // half of it
+  const PointGrid grid(scratch->middle.view(), first.garment->edge_count, longest + reach, scratch->grid);
   for (std::uint32_t e = 0; e < second.garment->edge_count; ++e) {
     const Edge edge(second, e);
     remember(*this, NearKind::kEdges, e);

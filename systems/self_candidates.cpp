@@ -5,20 +5,9 @@
 namespace pleat {
 namespace {
 
-constexpr float kMarginShare = 0.15f;  // of the mean edge length
-constexpr float kOverlapShare = 0.1f;  // of the mean edge length: so far beside a face it is still touched
-
 /// The furthest that a particle has moved away from the mean motion, m.
 float relative_motion(ConstVec3View from, ConstVec3View to, std::uint32_t count) {
-  Vec3 sum;
-  for (std::uint32_t i = 0; i < count; ++i) sum += to[i] - from[i];
-  const Vec3 mean = sum * (1.0f / static_cast<float>(count));
-  float most2 = 0.0f;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 d = to[i] - from[i] - mean;
-    most2 = std::max(most2, dot(d, d));
-  }
-  return std::sqrt(most2);
+  return largest_motion(mean_motion(from, to, count), from, to, count);
 }
 
 }  // namespace
@@ -32,7 +21,7 @@ bool SelfCandidates::validate() const {
 
 void SelfCandidates::run(Stats& stats) const {
   const std::uint32_t count = garment->particle_count;
-  const float margin = kMarginShare * garment->mean_edge_length;
+  const float margin = near_margin(*garment, *garment);
   std::uint32_t kept = 0;
   if (*pairs.count != kNeverSought) {
     if (relative_motion(sought_at, position, count) <= 0.5f * margin) return;
@@ -52,7 +41,6 @@ void SelfCandidates::run(Stats& stats) const {
                           .itself = true,
                           .distance = kept_distance,
                           .reach = reach,
-                          .wide = kOverlapShare * garment->mean_edge_length + margin,
                           .scratch = scratch,
                           .memory = &memory,
                           .pairs = pairs};
