@@ -8,6 +8,7 @@
 #include "components/edge_law.h"
 #include "engine/world.h"
 #include "systems/box.h"
+#include "systems/layer_candidates.h"
 
 namespace pleat {
 
@@ -51,6 +52,7 @@ struct ClothTick {
   bool loose = false;              // a start that is stretched
   bool deep = false;               // a start inside a body, which it is coming out of
   Box capsules_sought;             // in which the worker's capsules are all that there are in this tick
+  LayersAround layers_around;      // in this tick
   double time = 0.0;               // s, when the present substep begins
   Vec3 air;                        // m/s, velocity of the air now
 

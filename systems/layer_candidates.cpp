@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "systems/box.h"
 #include "systems/closest_points.h"
 
 namespace pleat {
 namespace {
+
+constexpr float kSkin = 0.1f;  // m, by which a cloth may leave its box until the others around it are sought anew
 
 /// The furthest that a particle of either moves against one of the other, m: from one position to another, and between
 /// two fractions of the tick.
@@ -16,17 +17,12 @@ float relative_motion(const LayerCandidates& in, ConstVec3View from, float t_fro
          largest_motion(mean, other.begin, other.end, other.garment->particle_count, in.t1 - t_from);
 }
 
-bool is_below(const LayerCloth& other, std::uint32_t layer) { return other.layer > 0 && other.layer < layer; }
-
-Box box_around(const LayerCloth& other) { return {other.low, other.high}; }
-
 /// All of one cloth below.
-void search(const LayerCandidates& in, std::uint32_t cloth, const Box& box, NearMemory& memory, Stats& stats) {
+void search(const LayerCandidates& in, std::uint32_t cloth, NearMemory& memory, Stats& stats) {
   const LayerCloth& other = in.clothes[cloth];
-  const float margin = near_margin(*in.garment, *other.garment);
   // What crosses in this substep is no further beyond than it has moved.
-  const float reach = std::max(2.0f * in.distance + margin, relative_motion(in, in.previous, in.t0, other));
-  if (!box.grown(reach + margin).overlaps(box_around(other))) return;
+  const float reach = std::max(2.0f * in.distance + near_margin(*in.garment, *other.garment),
+                               relative_motion(in, in.previous, in.t0, other));
   const Vec3View pose = in.scratch->pose.view();
   for (std::uint32_t i = 0; i < other.garment->particle_count; ++i) {
     pose.set(i, lerp(other.begin[i], other.end[i], in.t1));
@@ -47,26 +43,44 @@ void search(const LayerCandidates& in, std::uint32_t cloth, const Box& box, Near
   near.find_particle_face(NearKind::kOtherParticleFace, stats);
 }
 
+/// Those around a cloth that stays in the box.
+LayersAround seek(const LayerCandidates& in, const Box& box) {
+  LayersAround around{.box = box};
+  for (std::uint32_t k = 0; k < in.clothes.size(); ++k) {
+    if (!may_touch(*in.garment, in.layer, in.distance, box, in.clothes[k])) continue;
+    if (around.end == 0) around.begin = k;
+    around.end = k + 1;
+  }
+  return around;
+}
+
 }  // namespace
+
+bool may_touch(const Garment& garment, std::uint32_t layer, float distance, const Box& box, const LayerCloth& other) {
+  if (other.layer == 0 || other.layer >= layer) return false;
+  const float reach = 2.0f * (distance + near_margin(garment, *other.garment));
+  return box.grown(reach).overlaps({other.low, other.high});
+}
 
 bool LayerCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && layer > 0 && distance >= 0.0f &&
          t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && t_sought != nullptr &&
-         scratch != nullptr && scratch->pairs.size() >= pairs.capacity &&
+         around != nullptr && scratch != nullptr && scratch->pairs.size() >= pairs.capacity &&
          scratch->grid.holds(NearSearch::most_points(*garment));
 }
 
 void LayerCandidates::run(Stats& stats) const {
-  const Box box = box_of(position, garment->particle_count);
+  const Box box = box_of(previous, garment->particle_count).with(box_of(position, garment->particle_count));
+  if (!around->box.holds(box)) *around = seek(*this, box.grown(kSkin));
+  const auto is_near = [&](const LayerCloth& other) { return may_touch(*garment, layer, distance, box, other); };
   const auto still_holds = [&](const LayerCloth& other) {
-    if (!is_below(other, layer)) return true;
-    const float margin = near_margin(*garment, *other.garment);
-    return !box.grown(2.0f * distance + 2.0f * margin).overlaps(box_around(other)) ||
-           relative_motion(*this, sought_at, *t_sought, other) <= margin;
+    return !is_near(other) ||
+           relative_motion(*this, sought_at, *t_sought, other) <= near_margin(*garment, *other.garment);
   };
   std::uint32_t kept = 0;
   if (*pairs.count != kNone) {
-    if (t0 > 0.0f && std::ranges::all_of(clothes, still_holds)) return;
+    const auto some = clothes.subspan(around->begin, around->end - around->begin);
+    if (t0 > 0.0f && std::ranges::all_of(some, still_holds)) return;
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
@@ -74,8 +88,8 @@ void LayerCandidates::run(Stats& stats) const {
   *t_sought = t1;
   *pairs.count = 0;
   NearMemory memory{scratch->pairs.data(), scratch->pairs.data() + kept};
-  for (std::uint32_t k = 0; k < clothes.size(); ++k) {
-    if (is_below(clothes[k], layer)) search(*this, k, box, memory, stats);
+  for (std::uint32_t k = around->begin; k < around->end; ++k) {
+    if (is_near(clothes[k])) search(*this, k, memory, stats);
   }
 }
 

@@ -3,15 +3,27 @@
 
 #include <span>
 
+#include "systems/box.h"
 #include "systems/near_search.h"
 
 namespace pleat {
 
+/// Whether a cloth that stays in the box, of this layer and keeping this distance, m, may touch the other one in this
+/// tick, or comes so near that pairs are sought.
+bool may_touch(const Garment& garment, std::uint32_t layer, float distance, const Box& box, const LayerCloth& other);
+
+/// Clothes [begin, end): no other one may touch the cloth in this tick while it stays in the box.
+struct LayersAround {
+  Box box;  // as made, nothing stays in it
+  std::uint32_t begin = 0, end = 0;
+};
+
 /// Looks for pairs in a tick's first substep, and again where the cloths have moved against each other by more than a
 /// margin of 0.15 edges since. A pair that was there before keeps the side that it remembers.
 /// Reads:  garments; position (predicted), previous (P) m; clothes
-/// Writes: pairs; sought_at (P) m; t_sought; scratch; stats.contacts_dropped: pairs beyond the capacity
-/// Cost:   O(clothes + P of those near), when it looks O(P + E + F) of them; no allocation. Errors: none.
+/// Writes: pairs; sought_at (P) m; t_sought; around; scratch; stats.contacts_dropped: pairs beyond the capacity
+/// Cost:   O(P + P of those near), when it looks O(P + E + F) of them, and once a tick O(clothes); no allocation.
+/// Errors: none.
 struct LayerCandidates {
   const Garment* garment = nullptr;
   ConstVec3View position, previous;
@@ -21,7 +33,8 @@ struct LayerCandidates {
   float distance = 0.0f;                // m, to be kept
   NearPairList pairs;                   // *pairs.count == kNone: there is nothing yet
   Vec3View sought_at;
-  float* t_sought = nullptr;  // the fraction of the tick for which the pairs were looked for
+  float* t_sought = nullptr;       // the fraction of the tick for which the pairs were looked for
+  LayersAround* around = nullptr;  // kept for the tick
   NearScratch* scratch = nullptr;
 
   bool validate() const;

@@ -21,6 +21,7 @@ struct Layered {
   std::vector<NearPair> pairs = std::vector<NearPair>(512);
   std::uint32_t pair_count = kNone;
   float t_sought = 0.0f;
+  LayersAround around;
   NearScratch scratch{memory()};
   LayerCloth clothes[2];
   Stats stats;
@@ -41,6 +42,7 @@ struct Layered {
   }
   NearPairList list() { return {pairs.data(), 512, &pair_count}; }
   void search(float t0, float t1) {
+    if (t0 == 0.0f) around = {};
     const LayerCandidates search{.garment = &own.garment,
                                  .position = own.position.view(),
                                  .previous = own.previous.view(),
@@ -52,6 +54,7 @@ struct Layered {
                                  .pairs = list(),
                                  .sought_at = sought_at.view(),
                                  .t_sought = &t_sought,
+                                 .around = &around,
                                  .scratch = &scratch};
     ASSERT_TRUE(search.validate());
     search.run(stats);
@@ -177,6 +180,16 @@ TEST(LayerCandidates, PairsAreSoughtAnewWhereTheClothsMovedAgainstEachOther) {
     scene.search(0.0f, 0.5f);
     EXPECT_GT(scene.pair_count, 0u) << "a new tick";
   }
+}
+
+TEST(LayerCandidates, AClothThatCameFromFarMeetsWhatIsThere) {
+  Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {});
+  scene.move({0, 1, 0}), scene.move({});
+  scene.search(0.0f, 0.5f);
+  EXPECT_EQ(scene.pair_count, 0u);
+  scene.move({0, -1, 0});
+  scene.search(0.5f, 1.0f);
+  EXPECT_GT(scene.pair_count, 0u);
 }
 
 TEST(LayerDetection, WithoutAreaThereIsNoRowAndNothingNotFinite) {
