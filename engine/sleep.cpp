@@ -11,12 +11,29 @@ namespace {
 constexpr float kFallAsleep = 0.5f;  // s
 constexpr float kNear = 0.03f;       // m, in which a body that moves counts: what contact looks at, and some more
 
-bool is_disturbed(const ClothTick& t) {
+#ifdef PLEAT_WITH_COLLISION
+Box box_of(const World& world, const ClothRecord& cloth) {
+  return box_of(world.particles.position.view().from(cloth.particle_begin), cloth.garment().particle_count);
+}
+#endif
+
+/// Whether a cloth of a lower layer that it may touch does not sleep.
+bool is_carried([[maybe_unused]] const ClothTick& t) {
+#ifdef PLEAT_WITH_COLLISION
+  if (t.settings.layer < 2) return false;
   const World& w = t.world;
-  for (const ClothRecord& other : w.clothes) {
-    const bool below = other.settings.layer > 0 && other.settings.layer < t.settings.layer;
-    if (below && other.calm < kFallAsleep) return true;
+  const Box box = box_of(w, t.cloth);
+  for (std::size_t k = 0; k < w.clothes.size(); ++k) {
+    const bool near = may_touch(t.garment, t.settings.layer, t.settings.thickness, box, w.layers.clothes[k]);
+    if (near && w.clothes[k].calm < kFallAsleep) return true;
   }
+#endif
+  return false;
+}
+
+bool is_disturbed(const ClothTick& t) {
+  if (is_carried(t)) return true;
+  const World& w = t.world;
   const Disturbance around{.garment = &t.garment,
                            .position = t.position,
                            .pin_previous = t.pin_previous,
@@ -40,6 +57,18 @@ void wake(ClothRecord& cloth) { cloth.calm = 0.0f; }
 
 void wake_all(World& world) {
   for (ClothRecord& cloth : world.clothes) wake(cloth);
+}
+
+void wake_those_over([[maybe_unused]] World& world, [[maybe_unused]] const ClothRecord& cloth) {
+#ifdef PLEAT_WITH_COLLISION
+  const Box place = box_of(world, cloth);
+  const LayerCloth below{
+      .garment = &cloth.garment(), .layer = cloth.settings.layer, .low = place.low, .high = place.high};
+  for (ClothRecord& other : world.clothes) {
+    const pleat_cloth_settings& s = other.settings;
+    if (may_touch(other.garment(), s.layer, s.thickness, box_of(world, other), below)) wake(other);
+  }
+#endif
 }
 
 bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }

@@ -24,6 +24,7 @@ void carry_bodies([[maybe_unused]] World& world, [[maybe_unused]] const RigidMot
 
 void carry(ClothTick& t, const RigidMotion& jump) {
   World& world = t.world;
+  wake_those_over(world, t.cloth);
   RigidCarry cloth{
       .motion = jump, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
   if (world.held.size() != 0) cloth.held = world.held.view().from(t.cloth.particle_begin);

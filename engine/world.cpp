@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/layers.h"
+#include "engine/sleep.h"
 
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -191,6 +192,7 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
 
 void remove_cloth(World& world, std::uint32_t position) {
   const ClothRecord cloth = world.clothes[position];
+  wake_those_over(world, cloth);
   const Garment& g = cloth.garment();
   const std::uint32_t particles = range_of(g.particle_count), pins = range_of(g.pins.size()),
                       normals = range_of(g.normal_count), edges = range_of(g.edge_count);
@@ -248,6 +250,7 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
   }
   if (settings.self_distance != old.self_distance) cloth.self_pair_count = kNone;
+  if (settings.layer != old.layer) wake_those_over(world, cloth);
   if (settings.layer != old.layer || settings.thickness != old.thickness) {
     cloth.layer_pair_count = kNone;
   }

@@ -93,21 +93,67 @@ TEST(Sleep, OnlyBodiesThatComeNearWakeIt) {
   EXPECT_FALSE(scene.asleep());
 }
 
-TEST(Sleep, LayersWakeThoseOverThem) {
-  Asleep scene(0.005f, false);
-  pleat_cloth_settings s = scene.settings(scene.id);
-  s.layer = 1, s.sleep_speed = 0.05f;
-  must(call::cloth_set(scene, scene.id, &s));
-  s.layer = 2, s.thickness = 0.05f;
-  const pleat_cloth over = scene.cloth(scene.sheet(4), s);
-  const float apart[] = {-0.5f, 0, -0.56f, 0.5f, 0, -0.56f};  // with room for its thickness
-  must(call::cloth_move_pins(scene, over, apart, 0, 2));
-  for (int i = 0; i < 1800 && scene.stats().sleeping < 2; ++i) scene.step();
-  ASSERT_EQ(scene.stats().sleeping, 2u);
-  scene.pins[1] += 1e-3f;
-  must(call::cloth_move_pins(scene, scene.id, scene.pins.data(), 0, 2));
-  scene.step();
-  EXPECT_EQ(scene.stats().sleeping, 0u);
+/// Two such sheets over each other and a third elsewhere, all asleep.
+struct LayersAsleep : Scene {
+  pleat_garment garment = sheet(4);
+  pleat_cloth under = hung(1, 0.005f, 0), over = hung(2, 0.05f, -0.06f), elsewhere = hung(1, 0.005f, 5);
+
+  LayersAsleep() {
+    for (int i = 0; i < 1800 && stats().sleeping < 3; ++i) step();
+  }
+  pleat_cloth hung(std::uint32_t layer, float thickness, float z) {
+    pleat_cloth_settings s = default_settings();
+    s.sleep_speed = 0.05f, s.air_damping = 2.0f, s.layer = layer, s.thickness = thickness;
+    const pleat_cloth made = cloth(garment, s);
+    std::vector<float> x = particles(made);
+    x.resize(x.size() / 2);
+    for (std::size_t i = 2; i < x.size(); i += 3) x[i] += z;
+    place(made, x);
+    return made;
+  }
+  void place(pleat_cloth it, const std::vector<float>& x) {
+    must(call::cloth_write_particles(*this, it, x.data(), nullptr, static_cast<std::uint32_t>(x.size() / 3)));
+  }
+  bool awake(pleat_cloth it) { return info(it).substeps != 0; }
+};
+
+TEST(Sleep, LayersWakeThoseOverThemAndNoOthers) {
+  const float here[3] = {0, 0, 0}, far[3] = {0, -20, 0};
+  const auto put_in_layer = [](LayersAsleep& s, pleat_cloth cloth, std::uint32_t layer) {
+    pleat_cloth_settings settings = s.settings(cloth);
+    settings.layer = layer;
+    must(call::cloth_set(s, cloth, &settings));
+  };
+  using Change = std::function<void(LayersAsleep&, pleat_cloth)>;
+  const std::pair<const char*, Change> changes[] = {
+      {"a pin moves",
+       [](LayersAsleep& s, pleat_cloth cloth) {
+         const std::vector<float> x = s.particles(cloth);
+         const float pins[] = {x[0], x[1] + 1e-3f, x[2], x[9], x[10], x[11]};
+         must(call::cloth_move_pins(s, cloth, pins, 0, 2));
+       }},
+      {"it goes", [](LayersAsleep& s, pleat_cloth cloth) { must(call::cloth_destroy(s, cloth)); }},
+      {"it leaves its layer", [&](LayersAsleep& s, pleat_cloth cloth) { put_in_layer(s, cloth, 0); }},
+      {"it goes into a higher layer", [&](LayersAsleep& s, pleat_cloth cloth) { put_in_layer(s, cloth, 3); }},
+      {"it is placed elsewhere",
+       [](LayersAsleep& s, pleat_cloth cloth) {
+         std::vector<float> x = s.particles(cloth);
+         x.resize(x.size() / 2);
+         for (std::size_t i = 1; i < x.size(); i += 3) x[i] -= 20.0f;
+         s.place(cloth, x);
+       }},
+      {"it is carried elsewhere",
+       [&](LayersAsleep& s, pleat_cloth cloth) { must(call::cloth_teleport(s, cloth, here, far, nullptr)); }},
+  };
+  for (const auto& [what, change] : changes) {
+    for (const bool near : {true, false}) {
+      LayersAsleep scene;
+      ASSERT_EQ(scene.stats().sleeping, 3u) << what;
+      change(scene, near ? scene.under : scene.elsewhere);
+      scene.step();
+      EXPECT_EQ(scene.awake(scene.over), near) << what;
+    }
+  }
 }
 #endif
 
