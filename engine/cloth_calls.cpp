@@ -2,7 +2,6 @@
 #include "engine/calls.h"
 #include "engine/layers.h"
 #include "engine/schedule.h"
-#include "engine/sleep.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/self_candidates.h"
 #endif
@@ -239,7 +238,6 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     }
     const HostVectors x("positions", positions, 0, count);
     const HostVectors v("velocities", velocities, 0, velocities != nullptr ? count : 0);
-    wake_those_over(world, record);
     for (std::uint32_t i = 0; i < count; ++i) {
       world.particles.position.view().set(record.particle_begin + i, x[i]);
       world.particles.velocity.view().set(record.particle_begin + i, velocities != nullptr ? v[i] : Vec3{});
@@ -250,7 +248,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     record.settling = kSettling;
     record.sides_known = false;
     forget_motion(world, record);
-    forget_layer_pairs(world);
+    forget_layer_pairs(world, record);
     refresh(world, record);
   });
 }

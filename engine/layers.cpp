@@ -1,13 +1,25 @@
 #include "engine/layers.h"
 
 #include <algorithm>
+#include <span>
 
+#include "engine/sleep.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/box.h"
 #include "systems/near_search.h"
 #endif
 
 namespace pleat {
+namespace {
+
+/// Those that the cloth has found.
+std::span<NearPair> layer_pairs(World& world, const ClothRecord& cloth) {
+  if (cloth.layer_pair_count == kNone) return {};
+  const std::size_t first = std::size_t{SelfColumns::kPairsPerParticle} * cloth.particle_begin;
+  return {world.layers.pairs.data() + first, cloth.layer_pair_count};
+}
+
+}  // namespace
 
 std::uint32_t top_layer(const World& world) {
   std::uint32_t top = 0;
@@ -15,8 +27,25 @@ std::uint32_t top_layer(const World& world) {
   return top;
 }
 
-void forget_layer_pairs(World& world) {
-  for (ClothRecord& cloth : world.clothes) cloth.layer_pair_count = kNone;
+void forget_layer_pairs(World& world, ClothRecord& cloth) {
+  cloth.layer_pair_count = kNone;
+  const auto position = static_cast<std::uint32_t>(&cloth - world.clothes.data());
+  const auto before = [](const NearPair& pair, std::uint32_t other) { return pair.cloth < other; };
+  for (ClothRecord& other : world.clothes) {
+    const std::span<NearPair> pairs = layer_pairs(world, other);
+    const auto begin = std::lower_bound(pairs.begin(), pairs.end(), position, before);
+    const auto end = std::lower_bound(begin, pairs.end(), position + 1, before);
+    if (begin == end) continue;
+    std::move(end, pairs.end(), begin);
+    other.layer_pair_count -= static_cast<std::uint32_t>(end - begin);
+    wake(other);
+  }
+}
+
+void renumber_layer_pairs(World& world, std::uint32_t position) {
+  for (const ClothRecord& cloth : world.clothes) {
+    for (NearPair& pair : layer_pairs(world, cloth)) pair.cloth -= pair.cloth > position ? 1 : 0;
+  }
 }
 
 #ifdef PLEAT_WITH_COLLISION

@@ -11,18 +11,12 @@ namespace {
 constexpr float kFallAsleep = 0.5f;  // s
 constexpr float kNear = 0.03f;       // m, in which a body that moves counts: what contact looks at, and some more
 
-#ifdef PLEAT_WITH_COLLISION
-Box box_of(const World& world, const ClothRecord& cloth) {
-  return box_of(world.particles.position.view().from(cloth.particle_begin), cloth.garment().particle_count);
-}
-#endif
-
 /// Whether a cloth of a lower layer that it may touch does not sleep.
 bool is_carried([[maybe_unused]] const ClothTick& t) {
 #ifdef PLEAT_WITH_COLLISION
   if (t.settings.layer < 2) return false;
   const World& w = t.world;
-  const Box box = box_of(w, t.cloth);
+  const Box box = box_of(t.position, t.garment.particle_count);
   for (std::size_t k = 0; k < w.clothes.size(); ++k) {
     const bool near = may_touch(t.garment, t.settings.layer, t.settings.thickness, box, w.layers.clothes[k]);
     if (near && w.clothes[k].calm < kFallAsleep) return true;
@@ -57,18 +51,6 @@ void wake(ClothRecord& cloth) { cloth.calm = 0.0f; }
 
 void wake_all(World& world) {
   for (ClothRecord& cloth : world.clothes) wake(cloth);
-}
-
-void wake_those_over([[maybe_unused]] World& world, [[maybe_unused]] const ClothRecord& cloth) {
-#ifdef PLEAT_WITH_COLLISION
-  const Box place = box_of(world, cloth);
-  const LayerCloth below{
-      .garment = &cloth.garment(), .layer = cloth.settings.layer, .low = place.low, .high = place.high};
-  for (ClothRecord& other : world.clothes) {
-    const pleat_cloth_settings& s = other.settings;
-    if (may_touch(other.garment(), s.layer, s.thickness, box_of(world, other), below)) wake(other);
-  }
-#endif
 }
 
 bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }

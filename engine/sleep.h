@@ -8,8 +8,6 @@ namespace pleat {
 /// Something that a cloth depends on has changed; `wake_all`: that all may depend on.
 void wake(ClothRecord& cloth);
 void wake_all(World& world);
-/// To be called before a cloth goes from where it is, or changes its layer: what may lie on it wakes.
-void wake_those_over(World& world, const ClothRecord& cloth);
 /// Whether the cloth has nothing to do in this tick: to be asked before it, with the tick's poses in place.
 bool sleeps_on(const ClothTick& t);
 /// When a tick is done: a cloth that was calm for long enough falls asleep.

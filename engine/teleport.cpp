@@ -24,7 +24,6 @@ void carry_bodies([[maybe_unused]] World& world, [[maybe_unused]] const RigidMot
 
 void carry(ClothTick& t, const RigidMotion& jump) {
   World& world = t.world;
-  wake_those_over(world, t.cloth);
   RigidCarry cloth{
       .motion = jump, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
   if (world.held.size() != 0) cloth.held = world.held.view().from(t.cloth.particle_begin);
@@ -40,7 +39,7 @@ void carry(ClothTick& t, const RigidMotion& jump) {
   t.cloth.bending_left = 0.0f;
   wake(t.cloth);
   t.cloth.self_pair_count = kNone;
-  forget_layer_pairs(world);
+  forget_layer_pairs(world, t.cloth);
 }
 
 void report_jump(ClothTick& t, const RigidMotion& jump) {

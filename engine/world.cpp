@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "engine/layers.h"
-#include "engine/sleep.h"
 
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -191,8 +190,9 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
 }
 
 void remove_cloth(World& world, std::uint32_t position) {
+  forget_layer_pairs(world, world.clothes[position]);
+  renumber_layer_pairs(world, position);
   const ClothRecord cloth = world.clothes[position];
-  wake_those_over(world, cloth);
   const Garment& g = cloth.garment();
   const std::uint32_t particles = range_of(g.particle_count), pins = range_of(g.pins.size()),
                       normals = range_of(g.normal_count), edges = range_of(g.edge_count);
@@ -218,7 +218,6 @@ void remove_cloth(World& world, std::uint32_t position) {
   close_drawn_gap(world, cloth);
 
   world.clothes.erase(world.clothes.begin() + position);
-  forget_layer_pairs(world);
   for (std::size_t i = position; i < world.clothes.size(); ++i) {
     ClothRecord& later = world.clothes[i];
     later.particle_begin -= particles;
@@ -250,10 +249,8 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;
   }
   if (settings.self_distance != old.self_distance) cloth.self_pair_count = kNone;
-  if (settings.layer != old.layer) wake_those_over(world, cloth);
-  if (settings.layer != old.layer || settings.thickness != old.thickness) {
-    cloth.layer_pair_count = kNone;
-  }
+  if (settings.layer != old.layer) forget_layer_pairs(world, cloth);
+  if (settings.thickness != old.thickness) cloth.layer_pair_count = kNone;
   if (settings.surface != old.surface) cloth.sides_known = false;
   if (settings.stiffness != old.stiffness || settings.bend_stiffness != old.bend_stiffness) {
     cloth.lowered = Notice::kNothing;

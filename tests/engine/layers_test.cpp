@@ -1,7 +1,9 @@
 #ifdef PLEAT_WITH_COLLISION
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "engine/cloth_tick.h"
 #include "tests/engine/counting_new.h"
 #include "tests/engine/scene.h"
 
@@ -142,6 +144,69 @@ TEST(Layers, SurviveComingAndGoingOfCloths) {
   const pleat_contact_report again = report(scene, upper);
   EXPECT_GT(again.particle_contacts + again.face_contacts, 0u);
   EXPECT_EQ(scene.stats().nonfinite_restored, 0u);
+}
+
+/// Of the last cloth's pairs with the one at `position`, those whose side is known.
+std::size_t known_sides(Scene& scene, std::uint32_t position) {
+  const World& world = scene.inside();
+  const ClothRecord& last = world.clothes.back();
+  const NearPair* begin = world.layers.pairs.data() + SelfColumns::kPairsPerParticle * last.particle_begin;
+  if (last.layer_pair_count == kNone) return 0;
+  return static_cast<std::size_t>(std::count_if(begin, begin + last.layer_pair_count, [&](const NearPair& pair) {
+    return pair.cloth == position && pair.side != 0.0f;
+  }));
+}
+
+/// As a tick does.
+void begin_frame(Scene& scene, std::size_t position) {
+  World& world = scene.inside();
+  ClothTick t(world, world.workers[0], world.clothes[position]);
+  run_phase(t, Phase::kFrameBegin);
+}
+
+TEST(Layers, WhatLeavesItsPlaceIsForgottenAndNothingElse) {
+  const float here[3] = {0, 0, 0}, far[3] = {0, -20, 0};
+  enum Change { kGoes, kIsPlaced, kIsCarried, kChangesLayer };
+  for (const Change change : {kGoes, kIsPlaced, kIsCarried, kChangesLayer}) {
+    for (int which = 0; which < 3; ++which) {
+      Scene scene;
+      const pleat_garment garment = scene.sheet(8);
+      const pleat_cloth below[] = {scene.cloth(garment), scene.cloth(garment, in_layer(1)),
+                                   scene.cloth(garment, in_layer(2))};
+      const pleat_cloth upper = scene.cloth(garment, in_layer(3));
+      place(scene, below[2], 0.1f, 0.01f, 0.1f, 0.3f);
+      place(scene, upper, -0.1f, 0.02f, 0.1f, 0.5f);
+      scene.step(10);
+      const std::size_t known[] = {known_sides(scene, 0), known_sides(scene, 1), known_sides(scene, 2)};
+      ASSERT_GT(known[1], 100u);
+      ASSERT_GT(known[2], 100u);
+      const pleat_cloth cloth = below[which];
+      pleat_cloth_settings settings = scene.settings(cloth);
+      settings.layer = 4;
+      switch (change) {
+        case kGoes:
+          must(call::cloth_destroy(scene, cloth));
+          break;
+        case kIsPlaced:
+          place(scene, cloth, 0, -20, 0, 0);
+          break;
+        case kIsCarried:
+          must(call::cloth_teleport(scene, cloth, here, far, nullptr));
+          begin_frame(scene, static_cast<std::size_t>(which));
+          break;
+        case kChangesLayer:
+          must(call::cloth_set(scene, cloth, &settings));
+          break;
+      }
+      for (int k = 1; k < 3; ++k) {
+        const int now = change == kGoes && k > which ? k - 1 : k;
+        if (change == kGoes && k == which) continue;  // its number is another one's
+        EXPECT_EQ(known_sides(scene, static_cast<std::uint32_t>(now)), k == which ? 0 : known[k])
+            << change << which << k;
+      }
+      EXPECT_EQ(known_sides(scene, 0), change == kGoes && which == 0 ? known[1] : 0);
+    }
+  }
 }
 
 }  // namespace
