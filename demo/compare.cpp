@@ -79,6 +79,7 @@ void look_for_difference(const Scene& a, const Scene& b, uint32_t column, Differ
 void compare(const pleat_api& api, const CompareOptions& options) {
   if (options.close_up && options.rows.size() < 2) throw InputError("--close-up", "two rows should be given");
   std::vector<Row> rows = read_rows(api, options);
+  OutputFile out(options.out);  // what cannot be written is known before the long work
 
   Eigen::AlignedBox3d box;
   Difference difference;
@@ -114,7 +115,8 @@ void compare(const pleat_api& api, const CompareOptions& options) {
 
   std::vector<Cell> sheet;
   for (const std::vector<Cell>& row : cells) sheet.insert(sheet.end(), row.begin(), row.end());
-  write_png(options.out, contact_sheet(sheet, int(options.close_up ? rows.size() : options.columns)));
+  out.commit(
+      encode_png(contact_sheet(sheet, int(options.close_up ? rows.size() : options.columns)), PngEffort::kSmall));
   std::printf("picture       %s\n", options.out.c_str());
 }
 

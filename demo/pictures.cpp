@@ -100,11 +100,11 @@ void draw_frames(const pleat_api& api, const SceneDef& def, const RunRecord& rec
     const uint32_t due = uint32_t(uint64_t(cells.size()) * def.frames / std::min(kSheetCells, def.frames));
     if (i == due) {
       cells.push_back(
-          {shrink(image, std::min(size.width, kSheetWidth)), text("frame %u, %.2f s", i, (i + 1) / def.rate)});
+          {shrink(image, std::min(size.width / 2, kSheetWidth)), text("frame %u, %.2f s", i, (i + 1) / def.rate)});
     }
     progress.step();
   }
-  write_png(out.part("sheet.png"), contact_sheet(cells, kSheetColumns));
+  write_png(out.part("sheet.png"), contact_sheet(cells, kSheetColumns), PngEffort::kSmall);
   if (!video) std::fputs("no video: ffmpeg is not on the PATH (Debian: apt install ffmpeg)\n", stderr);
   if (video && !video->finish()) std::fputs("no video: ffmpeg failed\n", stderr);
 }
@@ -115,7 +115,7 @@ void draw_stages(const pleat_api& api, const SceneDef& def, const RunRecord& rec
   StagePainter painter(api, def, record, size);
   const std::vector<Cell> cells = {painter.coarse(), painter.surface(PLEAT_SURFACE_PN, "curved (PN)"),
                                    painter.surface(full, "normal and edge length control"), painter.sticks(full)};
-  write_png(out.part("stages.png"), contact_sheet(cells, 2));
+  write_png(out.part("stages.png"), contact_sheet(cells, 2), PngEffort::kSmall);
 }
 
 }  // namespace pleat::demo

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pleat::demo {
@@ -24,8 +25,16 @@ struct Image {
 /// An image of one colour, 0xRRGGBBAA. Errors: std::invalid_argument unless both sizes are in 1..16384.
 Image make_image(int width, int height, std::uint32_t rgba);
 
+enum class PngEffort {
+  kFast,   ///< for the many frames of a film
+  kSmall,  ///< for single pictures: half the bytes, five times the time
+};
+
+/// The bytes of a PNG, without alpha where no pixel has any. Errors: std::runtime_error.
+std::string encode_png(const Image& image, PngEffort effort);
+
 /// Writes a whole PNG or nothing: the file appears under its name only when complete, an older one stays until then.
 /// Errors: std::runtime_error that names the path and the reason.
-void write_png(const std::filesystem::path& path, const Image& image);
+void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::kFast);
 
 }  // namespace pleat::demo

@@ -3,7 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,36 +17,70 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kList = "pleat_run.txt";
+constexpr const char* kListHead = "Written by `pleat run`, which replaces these files when it writes here again:";
+
 std::string part_name(const std::string& name) { return "." + name + ".part" + std::to_string(getpid()); }
 
-bool is_frame(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.starts_with("frame_") && name.ends_with(".png");
+/// The file that a link ends at, be it there or not.
+fs::path follow(fs::path path) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path); ++i) path = path.parent_path() / fs::read_symlink(path);
+  return path;
+}
+
+bool is_frame(const std::string& name) {
+  const size_t digits = name.size() - std::min<size_t>(name.size(), 10);  // frame_ and .png
+  return digits >= 4 && name.starts_with("frame_") && name.ends_with(".png") &&
+         std::all_of(name.begin() + 6, name.end() - 4, [](unsigned char c) { return std::isdigit(c); });
+}
+
+bool is_result(const std::string& name) {
+  return is_frame(name) || name == "sheet.png" || name == "stages.png" || name == "video.mp4" || name == kList;
+}
+
+/// The names in a folder's list; none where it has none or one that we did not write.
+std::set<std::string> listed(const fs::path& folder) {
+  std::ifstream stream(folder / kList);
+  std::set<std::string> names;
+  std::string line;
+  if (!std::getline(stream, line) || line != kListHead) return names;
+  names.insert(kList);
+  while (std::getline(stream, line)) names.insert(line);
+  return names;
 }
 
 }  // namespace
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   if (path_.filename().empty() || fs::is_directory(path_)) throw InputError(path_.string(), "is a folder, not a file");
-  part_ = path_.parent_path() / part_name(path_.filename().string());
-  if (!std::ofstream(part_)) throw InputError(path_.string(), "cannot be written");
+  bool writable = false;
+  if (fs::exists(path_) && !fs::is_regular_file(path_)) {
+    writable = access(path_.c_str(), W_OK) == 0;  // opening a pipe would wait for its reader
+  } else {
+    path_ = follow(path_);
+    part_ = path_.parent_path() / part_name(path_.filename().string());
+    writable = bool(std::ofstream(part_));
+  }
+  if (!writable) throw InputError(path_.string(), "cannot be written");
 }
 
 OutputFile::~OutputFile() {
   std::error_code ignored;
-  fs::remove(part_, ignored);
+  if (!part_.empty()) fs::remove(part_, ignored);
 }
 
-void OutputFile::commit(const std::string& text) {
-  std::ofstream stream(part_, std::ios::binary | std::ios::trunc);
-  stream << text << std::flush;
-  if (!stream) throw std::runtime_error(path_.string() + ": cannot be written: is the disk full?");
+void OutputFile::commit(const std::string& bytes) {
+  std::ofstream stream(part_.empty() ? path_ : part_, std::ios::binary | std::ios::trunc);
+  stream << bytes;
   stream.close();
-  fs::rename(part_, path_);
+  if (!stream) throw std::runtime_error(path_.string() + ": cannot be written: is the disk full?");
+  if (!part_.empty()) fs::rename(part_, path_);
 }
 
 OutputFolder::OutputFolder(fs::path folder) : folder_(fs::absolute(std::move(folder)).lexically_normal()) {
   if (folder_.filename().empty()) folder_ = folder_.parent_path();
+  if (fs::is_directory(folder_)) earlier();  // for what it refuses
   for (fs::path at = folder_; !fs::exists(at) && at.has_relative_path(); at = at.parent_path()) made_ = at;
   part_ = folder_ / part_name("pleat");
   std::error_code error;
@@ -60,14 +97,33 @@ OutputFolder::~OutputFolder() {
   }
 }
 
-std::vector<fs::path> OutputFolder::commit() {
-  for (const auto& old : fs::directory_iterator(folder_)) {
-    if (is_frame(old.path())) fs::remove(old.path());
+std::vector<fs::path> OutputFolder::earlier() const {
+  const std::set<std::string> ours = listed(folder_);
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_result(name)) continue;
+    if (!ours.contains(name) || !fs::is_regular_file(entry.symlink_status()))
+      throw InputError(entry.path().string(),
+                       "is in the way and not of an earlier run: move it, or name another folder");
+    files.push_back(entry.path());
   }
+  return files;
+}
+
+std::vector<fs::path> OutputFolder::commit() {
   std::vector<fs::path> files;
   for (const auto& made : fs::directory_iterator(part_)) files.push_back(folder_ / made.path().filename());
-  for (const fs::path& file : files) fs::rename(part_ / file.filename(), file);
   std::ranges::sort(files);
+  std::ofstream list(part(kList));
+  list << kListHead << '\n';
+  for (const fs::path& file : files) list << file.filename().string() << '\n';
+  list.close();
+  if (!list) throw std::runtime_error(folder_.string() + ": cannot be written: is the disk full?");
+
+  for (const fs::path& old : earlier()) fs::remove(old);
+  fs::rename(part(kList), folder_ / kList);  // first, so that what follows is known as ours if we are ended within
+  for (const fs::path& file : files) fs::rename(part(file.filename().string()), file);
   made_.clear();
   return files;
 }

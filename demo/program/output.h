@@ -6,7 +6,8 @@
 
 namespace pleat::demo {
 
-/// A text file that appears under its name only when whole.
+/// A file that appears under its name only when whole. Where the name is a link, what it points at is written; a pipe
+/// or a device is written into.
 class OutputFile {
  public:
   /// Throws InputError when nothing can be written there, so that it is known before long work.
@@ -16,16 +17,19 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   /// Throws std::runtime_error when the disk does not take it.
-  void commit(const std::string& text);
+  void commit(const std::string& bytes);
 
  private:
-  std::filesystem::path path_, part_;
+  std::filesystem::path path_, part_;  // part_ empty: path_ is written into
 };
 
-/// A folder of results that appear in it only when all are whole.
+/// A folder of pictures that appear in it only when all are whole, with pleat_run.txt, a list of them. What the list of
+/// an earlier run names is replaced; other files are left alone.
 class OutputFolder {
  public:
-  /// Makes the folder where it is missing. Throws InputError when nothing can be written there.
+  /// Makes the folder where it is missing. Throws InputError when nothing can be written there, or when a file that is
+  /// not of an earlier run has a name that a run may write: frame_NNNN.png, sheet.png, stages.png, video.mp4,
+  /// pleat_run.txt.
   explicit OutputFolder(std::filesystem::path folder);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -34,10 +38,14 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// Where to write a file of this name until commit.
   std::filesystem::path part(const std::string& name) const { return part_ / name; }
-  /// Moves everything into the folder and says what is there now. Frames of an earlier run there are removed.
+  /// Removes what an earlier run wrote, moves everything into the folder and says what that is, without the list.
+  /// Throws as the constructor does.
   std::vector<std::filesystem::path> commit();
 
  private:
+  /// The files of an earlier run that are there.
+  std::vector<std::filesystem::path> earlier() const;
+
   std::filesystem::path folder_, part_;
   std::filesystem::path made_;  // the topmost folder that was missing; empty: none
 };

@@ -82,6 +82,7 @@ for file in frame_0000.png frame_0013.png sheet.png; do
   [ -s "made/here/$file" ] || fail "$file was not written"
 done
 [ -z "$(find made -name '.*')" ] || fail 'a temporary folder was left'
+[ -s made/here/pleat_run.txt ] || fail 'there is no list of what was written'
 for key in '"all_finite": true' '"watertight": true' '"particles": 16' '"frames": 14' stages_us quality; do
   grep -qF "$key" report.json || fail "the report lacks $key"
 done
@@ -91,6 +92,43 @@ accepted run hanging_square:4 --frames 2 --size 64x48 --out made/here
 [ ! -e made/here/frame_0013.png ] || fail 'frames of an earlier run were left'
 accepted run hanging_square:4 --frames 2 --level 3 --no-render --json report.json
 grep -qF '"drawn_triangles": 648' report.json || fail '--level 3 should draw 18 * 36 triangles'
+
+# What an earlier run did not write stays, whatever it is called; where a picture would have its name the run is refused.
+mkdir made/here/frame_dir.png && echo mine | tee made/here/frame_mine.png >made/here/frame_99.png
+accepted run hanging_square:4 --frames 3 --size 64x48 --out made/here
+[ "$(cat made/here/frame_mine.png made/here/frame_99.png)" = $'mine\nmine' ] || fail 'a file of the user was touched'
+[ -d made/here/frame_dir.png ] || fail 'a folder of the user was removed'
+[ -s made/here/frame_0002.png ] || fail 'a folder with files of the user was not written'
+for name in frame_0099.png sheet.png stages.png video.mp4 pleat_run.txt; do
+  mkdir mine && echo mine >"mine/$name"
+  refused "mine/$name" run hanging_square:4 --frames 2 --size 64x48 --out mine
+  [ "$(cat "mine/$name")" = mine ] || fail "$name of the user was touched"
+  rm -r mine
+done
+rm made/here/sheet.png && ln -s ../../file made/here/sheet.png
+refused 'here/sheet.png' run hanging_square:4 --frames 2 --size 64x48 --out made/here
+[ "$(cat file)" = text ] || fail 'what a link in the folder points at was touched'
+
+# A file is written where its name leads: through links, into pipes and devices.
+one_frame=(hanging_square:4 --frames 1 --no-render)
+mkdir far && echo old >far/report.json
+ln -s far/report.json link.json && ln -s far/none_yet.json dangling.json && ln -s link.json chain.json
+accepted run "${one_frame[@]}" --json chain.json
+accepted run "${one_frame[@]}" --json dangling.json
+for link in link chain dangling; do [ -L "$link.json" ] || fail "the link $link.json was replaced"; done
+for name in report none_yet; do grep -qF '"frames": 1' "far/$name.json" || fail "$name.json was not written"; done
+accepted compare hanging_square:4 --row level=1 --columns 1 --size 32x24 --out link.json
+[ -L link.json ] && [ "$(head -c 4 far/report.json | tail -c 3)" = PNG ] || fail 'compare replaced a link'
+refused 'none/a.png' compare hanging_square:4 --row level=1 --columns 1 --size 32x24 --out none/a.png
+mkfifo pipe
+cat pipe >read.json &
+accepted run "${one_frame[@]}" --json pipe
+wait
+[ -p pipe ] || fail 'a pipe was replaced'
+grep -qF '"frames": 1' read.json || fail 'the reader of a pipe got nothing'
+ln -s /dev/full full && "$pleat" run "${one_frame[@]}" --json full >/dev/null 2>full.stderr
+[ $? -eq 1 ] && grep -q 'full: cannot be written' full.stderr || fail "a full disk was not told: $(cat full.stderr)"
+[ -c /dev/full ] && [ -L full ] || fail 'a device was replaced'
 
 if [ "$failures" -gt 0 ]; then
   echo "$failures checks failed" >&2

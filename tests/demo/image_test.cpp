@@ -38,20 +38,34 @@ class ImageFile : public testing::Test {
 };
 
 TEST_F(ImageFile, ComesBackAsItWas) {
-  Image image = make_image(5, 3, 0x204060ff);
-  image.pixel(4, 2)[0] = 255;
-  write_png(folder / "a.png", image);
-  EXPECT_EQ(files(), 1u);
+  for (const std::uint8_t alpha : {std::uint8_t{255}, std::uint8_t{128}}) {
+    for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
+      Image image = make_image(5, 3, 0x204060ff);
+      image.pixel(4, 2)[0] = 255;
+      image.pixel(1, 1)[3] = alpha;
+      write_png(folder / "a.png", image, effort);
+      EXPECT_EQ(files(), 1u);
 
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(png_image_begin_read_from_file(&png, (folder / "a.png").c_str()));
-  png.format = PNG_FORMAT_RGBA;
-  ASSERT_EQ(png.width, 5u);
-  ASSERT_EQ(png.height, 3u);
-  std::vector<std::uint8_t> back(image.rgba.size());
-  ASSERT_TRUE(png_image_finish_read(&png, nullptr, back.data(), 0, nullptr));
-  EXPECT_EQ(back, image.rgba);
+      png_image png{};
+      png.version = PNG_IMAGE_VERSION;
+      ASSERT_TRUE(png_image_begin_read_from_file(&png, (folder / "a.png").c_str()));
+      EXPECT_EQ(png.format & PNG_FORMAT_FLAG_ALPHA, alpha == 255 ? 0u : PNG_FORMAT_FLAG_ALPHA);
+      png.format = PNG_FORMAT_RGBA;
+      ASSERT_EQ(png.width, 5u);
+      ASSERT_EQ(png.height, 3u);
+      std::vector<std::uint8_t> back(image.rgba.size());
+      ASSERT_TRUE(png_image_finish_read(&png, nullptr, back.data(), 0, nullptr));
+      EXPECT_EQ(back, image.rgba);
+    }
+  }
+}
+
+TEST(Png, MoreEffortMakesSlopesSmaller) {
+  Image slope = make_image(256, 256, 0x000000ff);
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) slope.pixel(x, y)[0] = static_cast<std::uint8_t>((7 * x + 3 * y) / 10);
+  }
+  EXPECT_LT(2 * encode_png(slope, PngEffort::kSmall).size(), encode_png(slope, PngEffort::kFast).size());
 }
 
 TEST_F(ImageFile, FailureNamesThePathAndLeavesNothing) {
