@@ -161,6 +161,7 @@ std::size_t known_sides(Scene& scene, std::uint32_t position) {
 void begin_frame(Scene& scene, std::size_t position) {
   World& world = scene.inside();
   ClothTick t(world, world.workers[0], world.clothes[position]);
+  t.frame_dt = 1.0f / 60;
   run_phase(t, Phase::kFrameBegin);
 }
 
