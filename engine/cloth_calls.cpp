@@ -1,3 +1,5 @@
+#include <cstddef>
+
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/layers.h"
@@ -100,7 +102,13 @@ void move_pins_to_particles(World& world, const ClothRecord& cloth) {
 }  // namespace
 
 pleat_result cloth_def_init(pleat_cloth_def* def, size_t size) {
-  return init_def("cloth_def_init", def, size, default_cloth());
+  constexpr std::size_t kBegin = offsetof(pleat_cloth_def, settings);
+  static_assert(kBegin + sizeof def->settings == sizeof *def, "padding behind settings would pass for more of them");
+  const pleat_result result = init_def("cloth_def_init", def, size, default_cloth());
+  if (result == PLEAT_OK && size >= kBegin + sizeof def->settings.size) {
+    def->settings.size = static_cast<std::uint32_t>(size - kBegin);
+  }
+  return result;
 }
 
 pleat_result cloth_create(pleat_world* handle, const pleat_cloth_def* given, pleat_cloth* cloth) {

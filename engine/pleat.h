@@ -270,10 +270,10 @@ enum {
 
 typedef struct pleat_cloth_def {
   uint32_t size;
-  pleat_garment garment;
-  const float* positions; /* start positions, garment order; null: the rest shape */
   uint32_t position_stride;
-  pleat_cloth_settings settings; /* the last field, so that it can grow */
+  pleat_garment garment;
+  const float* positions;        /* start positions, garment order; null: the rest shape */
+  pleat_cloth_settings settings; /* the last field, so that it can grow; its `size` is as much as this struct holds */
 } pleat_cloth_def;
 
 typedef struct pleat_cloth_info {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -99,6 +100,41 @@ TEST_F(Cloth, OlderSmallerStructsWork) {
   d.settings.density = kNan;
   pleat_cloth out{};
   EXPECT_EQ(api().cloth_create(world, &d, &out), pleat_result{PLEAT_OK});
+}
+
+/// A host whose pleat_cloth_settings end after `stretch_limit` hands in the settings of its def, as that was filled.
+TEST_F(Cloth, SettingsOfAnOlderSmallerDefSayHowMuchOfThemItHas) {
+  constexpr std::size_t kOldSettings = offsetof(pleat_cloth_settings, bend_stiffness);
+  constexpr std::size_t kOldSize = offsetof(pleat_cloth_def, settings) + kOldSettings;
+  alignas(pleat_cloth_def) unsigned char memory[sizeof(pleat_cloth_def)];
+  std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0xff));  // NaN as a float
+  const auto untouched = [&] {
+    return std::all_of(memory + kOldSize, std::end(memory), [](unsigned char byte) { return byte == 0xff; });
+  };
+  auto* old = reinterpret_cast<pleat_cloth_def*>(memory);
+  ASSERT_EQ(api().cloth_def_init(old, kOldSize), pleat_result{PLEAT_OK});
+  EXPECT_EQ(old->settings.size, kOldSettings);
+  EXPECT_TRUE(untouched());
+  old->settings.density = 0.5f;
+  EXPECT_EQ(api().cloth_set(world, cloth, &old->settings), pleat_result{PLEAT_OK});
+  EXPECT_EQ(settings().density, 0.5f);
+  EXPECT_EQ(settings().bend_stiffness, 5e-5f);
+  EXPECT_EQ(api().cloth_get(world, cloth, &old->settings), pleat_result{PLEAT_OK});
+  EXPECT_TRUE(untouched()) << "written beyond the host's struct";
+  old->garment = garment;
+  pleat_cloth out{};
+  EXPECT_EQ(api().cloth_create(world, old, &out), pleat_result{PLEAT_OK});
+}
+
+TEST_F(Cloth, ADefWithoutRoomForSettingsHasNoneWritten) {
+  for (const std::size_t less : {0u, 1u, 3u}) {
+    const std::size_t size = offsetof(pleat_cloth_def, settings) + less;
+    alignas(pleat_cloth_def) unsigned char memory[sizeof(pleat_cloth_def)];
+    std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0xff));
+    ASSERT_EQ(api().cloth_def_init(reinterpret_cast<pleat_cloth_def*>(memory), size), pleat_result{PLEAT_OK});
+    EXPECT_TRUE(std::all_of(memory + size, std::end(memory), [](unsigned char byte) { return byte == 0xff; }));
+  }
+  EXPECT_EQ(def().settings.size, sizeof(pleat_cloth_settings));
 }
 
 TEST_F(Cloth, CreateChecksItsInput) {
