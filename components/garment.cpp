@@ -59,13 +59,26 @@ void add_faces(const GarmentInput& input, Garment& g) {
   }
 }
 
-/// The particle nearest to the middle of all.
-std::uint32_t middle_of(std::span<const Vec3> positions) {
+/// Of the particles with a face, the one nearest to the middle of all of them.
+std::uint32_t middle_of(const Garment& g) {
+  const ConstVec3View x = g.rest_position.view();
+  std::vector<std::uint32_t> used;
   Vec3 sum;
-  for (const Vec3& x : positions) sum += x;
-  const Vec3 middle = sum * (1.0f / static_cast<float>(positions.size()));
-  const auto nearest = std::ranges::min_element(positions, {}, [&](const Vec3& x) { return length(x - middle); });
-  return static_cast<std::uint32_t>(nearest - positions.begin());
+  for (std::uint32_t i = 0; i < g.particle_count; ++i) {
+    if (g.particle_area[i] > 0.0f) used.push_back(i), sum += x[i];
+  }
+  const Vec3 middle = sum * (1.0f / static_cast<float>(used.size()));
+  return *std::ranges::min_element(used, {}, [&](std::uint32_t i) { return length(x[i] - middle); });
+}
+
+void gather_strays(Garment& g) {
+  g.stray_on = middle_of(g);
+  const Vec3View x = g.rest_position.view();
+  for (std::uint32_t i = 0; i < g.particle_count; ++i) {
+    if (g.particle_area[i] > 0.0f || g.pinned[i] != 0) continue;
+    g.strays.push_back(i);
+    x.set(i, x[g.stray_on]);
+  }
 }
 
 /// Edges between two pins are left out: nothing moves their ends.
@@ -80,10 +93,10 @@ void add_slots(const std::vector<EdgeEnds>& all, Garment& g) {
   fill_slots(g.particle_count, edges, lengths, g.slots);
 }
 
-/// Where edges begin to be solved: the pins or, without any, the particle nearest to the middle of all.
-std::vector<std::uint32_t> roots_of(const GarmentInput& input) {
-  if (input.pins.empty()) return {middle_of(input.positions)};
-  return {input.pins.begin(), input.pins.end()};
+/// Where edges begin to be solved: the pins or, without any, the particle in the middle.
+std::vector<std::uint32_t> roots_of(const Garment& g) {
+  if (g.pins.size() == 0) return {middle_of(g)};
+  return {g.pins.begin(), g.pins.end()};
 }
 
 void add_edges(const GarmentInput& input, Garment& g) {
@@ -97,7 +110,7 @@ void add_edges(const GarmentInput& input, Garment& g) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  order_edges(g.particle_count, roots_of(input), edges);
+  order_edges(g.particle_count, roots_of(g), edges);
 
   g.edge_count = static_cast<std::uint32_t>(edges.size());
   for (int k = 0; k < 2; ++k) g.edge_particle[k].resize(g.edge_count), g.edge_face[k].resize(g.edge_count);
@@ -164,6 +177,7 @@ Garment::Garment(std::pmr::memory_resource* m)
       pinned(m),
       pins(m),
       edges_at(m),
+      strays(m),
       face_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_edge{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_rest_area(m),
@@ -196,6 +210,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   Garment garment(memory);
   add_particles(input, garment);
   add_faces(input, garment);
+  gather_strays(garment);
   add_edges(input, garment);
   add_hinges(garment);
   measure_hinges(garment);

@@ -32,6 +32,8 @@ struct Garment {
   Column<std::uint8_t> pinned;     // 1 where the host moves the particle
   Column<std::uint32_t> pins;      // pinned particles in the host's order
   Column<std::uint32_t> edges_at;  // how many meet there
+  Column<std::uint32_t> strays;    // those that no face uses and no pin moves: they lie, and are kept, on stray_on
+  std::uint32_t stray_on = 0;      // a particle with a face, in the middle
 
   // Faces (F). Edge k of a face joins its corners k and (k + 1) % 3.
   Column<std::uint32_t> face_particle[3], face_edge[3];

@@ -1,5 +1,6 @@
-// Rows at the end of a frame: the drawn surface.
+// Rows at the end of a frame: what was left behind, and the drawn surface.
 #include "engine/schedule_row.h"
+#include "systems/stray_carry.h"
 #ifdef PLEAT_WITH_SMOOTHING
 #include "systems/drawn_normals.h"
 #include "systems/drawn_tangents.h"
@@ -17,9 +18,13 @@
 
 namespace pleat {
 
-#ifdef PLEAT_WITH_SMOOTHING
 namespace {
 
+const char* with_strays(const World&, const ClothRecord& c) {
+  return c.garment().strays.size() == 0 ? "every vertex has a triangle or is a pin" : kNeeded;
+}
+
+#ifdef PLEAT_WITH_SMOOTHING
 /// `condition`, where somebody sees the cloth.
 template <const char* (*condition)(const World&, const ClothRecord&)>
 const char* where_seen(const World& w, const ClothRecord& c) {
@@ -76,7 +81,14 @@ const FoldCurve* fold_curves(const ClothTick& t) {
   return with_sides(t.world, t.cloth) == kNeeded ? t.worker.fold_choices.curves.data() : nullptr;
 }
 
+#endif
+
 constexpr Row kRows[] = {
+    {Phase::kFrameEnd, "stray_carry", with_strays,
+     [](ClothTick& t) {
+       run(StrayCarry{&t.garment, t.position, t.velocity});
+     }},
+#ifdef PLEAT_WITH_SMOOTHING
     {Phase::kFrameEnd, "particle_normals", where_seen<with_normals>,
      [](ClothTick& t) {
        run(ParticleNormals{.mode = surface_mode(t.settings),
@@ -197,13 +209,11 @@ constexpr Row kRows[] = {
                          .tangent = t.drawn_tangent,
                          .handedness = t.drawn_handedness});
      }},
+#endif
 };
 
 }  // namespace
 
 std::span<const Row> surface_rows() { return kRows; }
-#else
-std::span<const Row> surface_rows() { return {}; }
-#endif
 
 }  // namespace pleat

@@ -36,6 +36,7 @@ void LayerDetection::run(Stats& stats) const {
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   for (NearPair* pair = pairs.pairs; pair != pairs.pairs + *pairs.count; ++pair) {
     const LayerCloth& other = clothes[pair->cloth];
+    if (pair->kind == NearKind::kOtherParticleFace && other.garment->particle_area[pair->first] == 0.0f) continue;
     const Corners corners = corners_of(*pair, *garment, *other.garment);
     const auto is_own = [&](int k) { return k >= corners.own && k < corners.own + corners.own_count; };
     Vec3 x[4], before[4];

@@ -17,6 +17,7 @@ void SelfDetection::run(Stats& stats) const {
   for (NearPair* pair = pairs.pairs; pair != pairs.pairs + *pairs.count; ++pair) {
     const bool face = pair->kind == NearKind::kParticleFace;
     const std::uint32_t f = pair->first, s = pair->second;
+    if (face && garment->particle_area[f] == 0.0f) continue;  // a vertex without a triangle is no part of the cloth
     const std::uint32_t i[4] = {face ? f : end[0][f], face ? corner[0][s] : end[1][f], face ? corner[1][s] : end[0][s],
                                 face ? corner[2][s] : end[1][s]};
     const Vec3 x[4] = {position[i[0]], position[i[1]], position[i[2]], position[i[3]]};
