@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "components/limits.h"
 #include "engine/world.h"
 
 namespace pleat {
@@ -73,9 +74,6 @@ inline void need_finite(const char* name, const float v[3]) {
   }
 }
 
-/// Beyond it single precision no longer tells millimetres apart by far.
-inline constexpr float kFarthest = 1e6f;  // m
-
 inline Vec3 need_place(const char* name, const float v[3]) {
   need_finite(name, v);
   for (int k = 0; k < 3; ++k) need_range(name, v[k], -kFarthest, kFarthest);
@@ -91,10 +89,19 @@ inline Quaternion need_rotation(const char* name, const float q[4]) {
   return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
 }
 
-/// Strided vectors as the host gives them.
+/// A host's list of indices of vertices has this one at [row][column].
+inline void need_index(const char* name, std::size_t row, std::size_t column, std::uint32_t index,
+                       std::uint32_t vertex_count) {
+  if (index < vertex_count) return;
+  refuse(std::string(name) + "[" + std::to_string(row) + "][" + std::to_string(column) + "] is " +
+         std::to_string(index) + ", there are " + std::to_string(vertex_count) + " vertices");
+}
+
+/// Strided vectors as the host gives them, each number at most `most` away from 0.
 class HostVectors {
  public:
-  HostVectors(const char* name, const float* data, std::size_t stride, std::size_t count, std::size_t width = 3)
+  HostVectors(const char* name, const float* data, std::size_t stride, std::size_t count, std::size_t width = 3,
+              float most = kFarthest)
       : data_(reinterpret_cast<const char*>(data)), stride_(stride != 0 ? stride : width * sizeof(float)) {
     if (count == 0) return;
     need_pointer(name, data);
@@ -104,18 +111,21 @@ class HostVectors {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < width; ++k) {
         float value;
-        std::memcpy(&value, data_ + i * stride_ + k * sizeof(float), sizeof value);
-        if (!(std::abs(value) <= kFarthest)) {
-          refuse(std::string(name) + "[" + std::to_string(i) + "][" + std::to_string(k) + "] is " + text(value));
+        std::memcpy(&value, at(i) + k * sizeof(float), sizeof value);
+        if (!(std::abs(value) <= most)) {  // also for NaN
+          refuse(std::string(name) + "[" + std::to_string(i) + "][" + std::to_string(k) + "] is " + text(value) +
+                 ", must be from " + text(-most) + " to " + text(most));
         }
       }
     }
   }
   Vec3 operator[](std::size_t i) const {
     Vec3 v;
-    std::memcpy(&v, data_ + i * stride_, sizeof v);
+    std::memcpy(&v, at(i), sizeof v);
     return v;
   }
+  const char* at(std::size_t i) const { return data_ + i * stride_; }
+  std::size_t stride() const { return stride_; }
 
  private:
   const char* data_;
@@ -134,6 +144,16 @@ Def read_def(const char* name, const Def* given, const Def& defaults) {
   std::memcpy(static_cast<void*>(&def), given, given->size);
   def.size = sizeof(Def);
   return def;
+}
+
+/// Fills the caller's struct, maybe an older and smaller one, as far as its size reaches.
+template <class Struct>
+void write_sized(const char* name, Struct* given, const Struct& all) {
+  need_pointer(name, given);
+  need_range((std::string(name) + ".size").c_str(), given->size, sizeof given->size, sizeof(Struct));
+  const std::uint32_t size = given->size;
+  std::memcpy(static_cast<void*>(given), &all, size);
+  given->size = size;
 }
 
 /// Fills the first `size` bytes of the caller's struct with defaults.

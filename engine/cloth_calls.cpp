@@ -2,6 +2,7 @@
 
 #include "engine/border.h"
 #include "engine/calls.h"
+#include "engine/cloth_tick.h"
 #include "engine/layers.h"
 #include "engine/schedule.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -48,7 +49,7 @@ const pleat_cloth_def& default_cloth() {
 
 void need_settings(const pleat_cloth_settings& s) {
   need_range("integrator", s.integrator, 0, PLEAT_INTEGRATOR_IMPLICIT_EULER);
-  need_range("substeps", s.substeps, 0, 64);
+  need_range("substeps", s.substeps, 0, kMostSubsteps);
   need_range("sweeps", s.sweeps, 1, 64);
   need_range("density", s.density, 1e-6, 1e4);
   need_range("stiffness", s.stiffness, 0, 1e12);
@@ -120,8 +121,7 @@ pleat_result cloth_create(pleat_world* handle, const pleat_cloth_def* given, ple
     need_settings(def.settings);
     const std::uint32_t count = def.positions != nullptr ? source.garment.particle_count : 0;
     const HostVectors start("positions", def.positions, def.position_stride, count);
-    const std::size_t stride = def.position_stride != 0 ? def.position_stride : 3 * sizeof(float);
-    const Handle added = add_cloth(world, source, def.settings, def.positions, stride);
+    const Handle added = add_cloth(world, source, def.settings, def.positions, start.stride());
     try {
       refresh(world, world.clothes.back());
     } catch (...) {
@@ -141,14 +141,8 @@ pleat_result cloth_destroy(pleat_world* handle, pleat_cloth cloth) {
 }
 
 pleat_result cloth_get(const pleat_world* handle, pleat_cloth cloth, pleat_cloth_settings* settings) {
-  return guarded(as_world(handle), "cloth_get", [&] {
-    const ClothRecord& record = need_cloth(need_world(handle), cloth);
-    need_pointer("settings", settings);
-    need_range("settings.size", settings->size, sizeof settings->size, sizeof(pleat_cloth_settings));
-    const std::uint32_t size = settings->size;
-    std::memcpy(settings, &record.settings, size);
-    settings->size = size;
-  });
+  return guarded(as_world(handle), "cloth_get",
+                 [&] { write_sized("settings", settings, need_cloth(need_world(handle), cloth).settings); });
 }
 
 pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth_settings* settings) {
@@ -245,7 +239,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
       refuse("count is " + std::to_string(count) + ", the garment has " + std::to_string(particles) + " particles");
     }
     const HostVectors x("positions", positions, 0, count);
-    const HostVectors v("velocities", velocities, 0, velocities != nullptr ? count : 0);
+    const HostVectors v("velocities", velocities, 0, velocities != nullptr ? count : 0, 3, kFastest);
     for (std::uint32_t i = 0; i < count; ++i) {
       world.particles.position.view().set(record.particle_begin + i, x[i]);
       world.particles.velocity.view().set(record.particle_begin + i, velocities != nullptr ? v[i] : Vec3{});

@@ -25,7 +25,6 @@
 namespace pleat {
 namespace {
 
-constexpr std::uint32_t kMostSubsteps = 64;
 constexpr std::uint32_t kStiffSubsteps = 4;   // times as many as without stiff springs, at most
 constexpr std::uint32_t kMostForceSteps = 4;  // of a substep, where nothing but bending is stiff
 constexpr float kBendingHeld = 1.0f / 120;    // s, for how long its force is held where it is soft, at most

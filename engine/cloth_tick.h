@@ -5,6 +5,9 @@
 
 namespace pleat {
 
+/// Of a tick that goes well.
+inline constexpr std::uint32_t kMostSubsteps = 64;
+
 /// Runs the rows of a phase that are in the cloth's plan.
 void run_phase(ClothTick& t, Phase phase);
 /// Advances the cloth by dt seconds, on any thread: it changes nothing but the cloth and the worker. A tick that ends

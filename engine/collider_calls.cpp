@@ -3,6 +3,7 @@
 #include "engine/schedule.h"
 #include "engine/sleep.h"
 #ifdef PLEAT_WITH_COLLISION
+#include "systems/collision_bodies.h"
 #include "systems/collision_hull.h"
 #endif
 
@@ -21,7 +22,7 @@ const pleat_collider_def& default_collider() {
 }
 
 #ifdef PLEAT_WITH_COLLISION
-constexpr std::uint32_t kMostBodyTriangles = 2'000'000, kMostHullPoints = 65536;
+constexpr std::uint32_t kMostHullPoints = 65536;
 constexpr double kMostRadius = 1e4;  // m
 
 void need_settings(const pleat_collider_settings& s) {
@@ -37,16 +38,13 @@ RigidPose need_pose(const float position[3], const float rotation[4]) {
 }
 
 MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
-  need_range("vertex_count", def.vertex_count, 3, 3 * double{kMostBodyTriangles});
-  need_range("triangle_count", def.triangle_count, 1, kMostBodyTriangles);
+  need_range("vertex_count", def.vertex_count, 3, 3 * double{kMaxMeshTriangles});
+  need_range("triangle_count", def.triangle_count, 1, double{kMaxMeshTriangles});
   const HostVectors positions("positions", def.positions, def.position_stride, def.vertex_count);
   need_pointer("triangles", def.triangles);
   const std::size_t index_count = std::size_t{3} * def.triangle_count;
   for (std::size_t i = 0; i < index_count; ++i) {
-    if (def.triangles[i] >= def.vertex_count) {
-      refuse("triangles[" + std::to_string(i / 3) + "][" + std::to_string(i % 3) + "] is " +
-             std::to_string(def.triangles[i]) + ", there are " + std::to_string(def.vertex_count) + " vertices");
-    }
+    need_index("triangles", i / 3, i % 3, def.triangles[i], def.vertex_count);
   }
   MeshCollider mesh(&world.memory);
   mesh.previous.resize(def.vertex_count);
@@ -273,17 +271,12 @@ pleat_result collider_move_rigid(pleat_world* handle, [[maybe_unused]] pleat_col
 }
 
 pleat_result collider_get(const pleat_world* handle, [[maybe_unused]] pleat_collider collider,
-                          pleat_collider_settings* settings) {
+                          [[maybe_unused]] pleat_collider_settings* settings) {
   return guarded(as_world(handle), "collider_get", [&] {
     [[maybe_unused]] const World& world = need_world(handle);
-    need_pointer("settings", settings);
-    need_range("settings.size", settings->size, sizeof settings->size, sizeof(pleat_collider_settings));
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    const std::uint32_t size = settings->size;
-    const pleat_collider_settings all = settings_of(world, need_collider(world, collider));
-    std::memcpy(settings, &all, size);
-    settings->size = size;
+    write_sized("settings", settings, settings_of(world, need_collider(world, collider)));
 #endif
   });
 }

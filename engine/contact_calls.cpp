@@ -62,17 +62,14 @@ pleat_result cloth_contact_report(const pleat_world* handle, pleat_cloth cloth, 
   return guarded(as_world(handle), "cloth_contact_report", [&] {
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
-    need_pointer("report", report);
-    need_range("report.size", report->size, sizeof report->size, sizeof(pleat_contact_report));
     pleat_contact_report all{};
-    all.size = report->size;
     all.particle_contacts = record.contacts.particle;
     all.face_contacts = record.contacts.face;
     all.self_contacts = record.contacts.self;
     all.contacts_dropped = record.contacts.dropped;
     add_depths(world, record, all);
     add_crossings(world, record, all);
-    std::memcpy(report, &all, report->size);
+    write_sized("report", report, all);
   });
 }
 

@@ -88,10 +88,7 @@ std::vector<Triangle> read_triangles(const std::uint32_t* triangles, std::uint32
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       read[t][k] = triangles[3 * t + k];
-      if (read[t][k] >= vertex_count) {
-        refuse("triangles[" + std::to_string(t) + "][" + std::to_string(k) + "] is " + std::to_string(read[t][k]) +
-               ", there are " + std::to_string(vertex_count) + " vertices");
-      }
+      need_index("triangles", t, k, read[t][k], vertex_count);
     }
   }
   return read;
@@ -117,10 +114,7 @@ std::vector<std::array<std::uint32_t, 2>> read_seams(const pleat_garment_def& de
   for (std::uint32_t s = 0; s < def.seam_count; ++s) {
     for (std::size_t k = 0; k < 2; ++k) {
       seams[s][k] = def.seams[2 * s + k];
-      if (seams[s][k] >= def.vertex_count) {
-        refuse("seams[" + std::to_string(s) + "][" + std::to_string(k) + "] is " + std::to_string(seams[s][k]) +
-               ", there are " + std::to_string(def.vertex_count) + " vertices");
-      }
+      need_index("seams", s, k, seams[s][k], def.vertex_count);
     }
   }
   return seams;
@@ -158,7 +152,7 @@ void log_repairs(const World& world, const MeshReport& r) {
   add(r.degenerate_triangles, "degenerate triangles left out");
   add(r.duplicate_triangles, "duplicate triangles left out");
   add(r.flipped_triangles, "triangles turned to their neighbours' winding");
-  add(r.unreferenced_vertices, "vertices without a triangle kept inert");
+  add(r.unreferenced_vertices, "vertices without a triangle carried along");
   add(r.nonmanifold_vertices, "vertices where two fans touch");
   if (!line.empty()) world.log(PLEAT_LOG_WARNING, "garment_create: mesh repaired: " + line);
 }
@@ -212,11 +206,10 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
 
     std::vector<float> uvs;
     if (def.uvs != nullptr) {
-      const HostVectors checked("uvs", def.uvs, def.uv_stride, def.vertex_count, 2);
-      const std::size_t stride = def.uv_stride != 0 ? def.uv_stride : 2 * sizeof(float);
+      const HostVectors given_uvs("uvs", def.uvs, def.uv_stride, def.vertex_count, 2);
       uvs.resize(2 * std::size_t{def.vertex_count});
       for (std::size_t i = 0; i < def.vertex_count; ++i) {
-        std::memcpy(&uvs[2 * i], reinterpret_cast<const char*>(def.uvs) + i * stride, 2 * sizeof(float));
+        std::memcpy(&uvs[2 * i], given_uvs.at(i), 2 * sizeof(float));
       }
     }
     const std::vector<std::array<std::uint32_t, 2>> seams = read_seams(def);

@@ -112,10 +112,7 @@ pleat_result world_keep_budget(pleat_world* handle, float budget_ms, float cost_
 pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
   return guarded(as_world(handle), "world_stats", [&] {
     const World& world = need_world(handle);
-    need_pointer("stats", stats);
-    need_range("stats.size", stats->size, sizeof stats->size, sizeof(pleat_stats));
     pleat_stats all{};
-    all.size = stats->size;
     all.ticks = world.ticks;
     all.substeps = world.substeps;
     all.particle_contacts = world.stats.particle_contacts;
@@ -138,7 +135,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();
     all.peak_bytes = world.memory.peak_bytes();
-    std::memcpy(stats, &all, stats->size);
+    write_sized("stats", stats, all);
   });
 }
 

@@ -3,16 +3,21 @@
 #include <algorithm>
 
 #include "components/lanes.h"
+#include "components/limits.h"
 #include "components/wide.h"
 
 namespace pleat {
 namespace {
 
-constexpr float kFarthest = 1e6f, kFastest = 1e5f;
+/// On each axis; false for NaN.
+PLEAT_KERNEL LaneMask within(const Vec3Lanes& a, float most) {
+  const float most2 = most * most;
+  return (a.x * a.x <= most2) & (a.y * a.y <= most2) & (a.z * a.z <= most2);
+}
 
 /// Of eight particles, a bit for each that is finite, near and slow.
 PLEAT_KERNEL std::uint32_t good_ones(const Vec3Lanes& x, const Vec3Lanes& v) {
-  return bits((dot(x, x) < kFarthest * kFarthest) & (dot(v, v) < kFastest * kFastest));  // false for NaN
+  return bits(within(x, kFarthest) & within(v, kFastest));
 }
 
 }  // namespace

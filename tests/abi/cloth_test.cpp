@@ -192,6 +192,8 @@ TEST_F(Cloth, PinsAndParticlesAreChecked) {
   refused("positions", [&] { return api().cloth_write_particles(world, cloth, nullptr, nullptr, 9); });
   refused("positions[1][1]", [&] { return api().cloth_write_particles(world, cloth, bad.data(), nullptr, 9); });
   refused("velocities[1][1]", [&] { return api().cloth_write_particles(world, cloth, x.data(), bad.data(), 9); });
+  std::vector<float> fast(27, 1.1e5f);
+  refused("velocities[0][0]", [&] { return api().cloth_write_particles(world, cloth, x.data(), fast.data(), 9); });
   expect_refused(PLEAT_ERROR_CAPACITY, "capacity",
                  [&] { return api().cloth_read_particles(world, cloth, x.data(), nullptr, 8); });
 }

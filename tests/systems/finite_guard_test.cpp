@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/limits.h"
 #include "tests/systems/sheet.h"
 
 namespace pleat {
@@ -38,19 +39,20 @@ TEST_F(FiniteGuardTest, RefusesToRunWithAFieldMissing) {
 }
 
 TEST_F(FiniteGuardTest, LeavesWhatIsSaneAlone) {
-  sheet.position.set(0, {9e5f, 0, 0});
-  sheet.velocity.set(1, {0, 9e4f, 0});
+  const Vec3 far{kFarthest, -kFarthest, kFarthest}, fast{-kFastest, kFastest, -kFastest};  // what the border lets in
+  sheet.position.set(0, far);
+  sheet.velocity.set(1, fast);
   job().run(stats);
   EXPECT_EQ(stats.nonfinite_restored, 0u);
-  EXPECT_EQ(sheet.position[0], (Vec3{9e5f, 0, 0}));
-  EXPECT_EQ(sheet.velocity[1], (Vec3{0, 9e4f, 0}));
+  EXPECT_EQ(sheet.position[0], far);
+  EXPECT_EQ(sheet.velocity[1], fast);
 }
 
 TEST_F(FiniteGuardTest, PutsBackWhatIsNot) {
-  const float bad[] = {kNan, kInfinity, -kInfinity, 2e6f, 3e38f};
+  const float bad[] = {kNan, kInfinity, -kInfinity, std::nextafter(kFarthest, kInfinity), 3e38f};
   for (std::uint32_t i = 0; i < 5; ++i) sheet.position.set(i, {0, bad[i], 0});
   sheet.velocity.set(5, {kNan, 0, 0});
-  sheet.velocity.set(6, {0, 0, 2e5f});
+  sheet.velocity.set(6, {0, 0, std::nextafter(-kFastest, -kInfinity)});
   job().run(stats);
   EXPECT_EQ(stats.nonfinite_restored, 7u);
   for (std::uint32_t i = 0; i < 7; ++i) {
