@@ -97,6 +97,74 @@ void need_visible(const ClothRecord& cloth) {
   if (!cloth.visible) refuse("the cloth is not visible: its surface is not drawn, see cloth_set_visible");
 }
 
+/// Whether the target asks for the attribute at `offset`; refused where a vertex has no room for its `bytes`.
+bool asks_for(const char* name, const pleat_vertex_target& target, std::uint32_t offset, std::size_t bytes) {
+  if (offset == PLEAT_NO_ATTRIBUTE) return false;
+  if (std::uint64_t{offset} + bytes > target.stride) {
+    refuse(std::string("target.") + name + " is " + std::to_string(offset) + ", beyond a stride of " +
+           std::to_string(target.stride));
+  }
+  return true;
+}
+
+void need_target(const pleat_vertex_target& target, const ClothRecord& cloth, std::uint32_t count) {
+  need_pointer("target.data", target.data);
+  need_capacity("target.capacity", target.capacity, count);
+  need_range("target.position_format", target.position_format, 0, PLEAT_FORMAT_16);
+  need_range("target.normal_format", target.normal_format, 0, PLEAT_FORMAT_16);
+  const auto size_of = [](std::uint32_t format) {
+    return format == PLEAT_FORMAT_16 ? sizeof(std::uint16_t) : sizeof(float);
+  };
+  asks_for("position_offset", target, target.position_offset, 3 * size_of(target.position_format));
+  asks_for("normal_offset", target, target.normal_offset, 3 * size_of(target.normal_format));
+  asks_for("uv_offset", target, target.uv_offset, 2 * sizeof(float));
+  if (!asks_for("tangent_offset", target, target.tangent_offset, 4 * size_of(target.normal_format))) return;
+  need_compiled(kHasSmoothing, "target.tangent_offset: the tangent", "PLEAT_SMOOTHING");
+  if (cloth.settings.tangents == 0) refuse("target.tangent_offset is given, but the cloth's setting tangents is 0");
+}
+
+void write_vertices(const DrawnVertices& drawn, const pleat_vertex_target& target) {
+  const bool with_position = target.position_offset != PLEAT_NO_ATTRIBUTE;
+  const bool with_normal = target.normal_offset != PLEAT_NO_ATTRIBUTE;
+  const bool with_uv = target.uv_offset != PLEAT_NO_ATTRIBUTE;
+  const bool with_tangent = target.tangent_offset != PLEAT_NO_ATTRIBUTE;
+  const bool packs_position = with_position && target.position_format == PLEAT_FORMAT_16;
+  const bool packs_normal = target.normal_format == PLEAT_FORMAT_16;
+  const Box bounds = packs_position ? drawn.bounds() : Box{};
+  const UnormBox box(bounds.low, bounds.high);
+  char* out = static_cast<char*>(target.data);
+  const auto write = [&](std::uint32_t offset, const auto&... values) {  // one by one: no detour through memory
+    char* to = out + offset;
+    ((std::memcpy(to, &values, sizeof values), to += sizeof values), ...);
+  };
+  const auto write_direction = [&](std::uint32_t offset, auto... values) {
+    packs_normal ? write(offset, snorm16(values)...) : write(offset, values...);
+  };
+  for (std::uint32_t i = 0; i < drawn.count(); ++i, out += target.stride) {
+    if (with_position) {
+      const Vec3 p = drawn.position(i);
+      if (packs_position) {
+        const auto [x, y, z] = box.pack(p);
+        write(target.position_offset, x, y, z);
+      } else {
+        write(target.position_offset, p.x, p.y, p.z);
+      }
+    }
+    if (with_normal) {
+      const Vec3 n = drawn.normal(i);
+      write_direction(target.normal_offset, n.x, n.y, n.z);
+    }
+    if (with_uv) {
+      const auto [u, v] = drawn.uv(i);
+      write(target.uv_offset, u, v);
+    }
+    if (with_tangent) {
+      const auto [x, y, z, handedness] = drawn.tangent(i);
+      write_direction(target.tangent_offset, x, y, z, handedness);
+    }
+  }
+}
+
 template <class Index>
 void read_indices(const ClothRecord& cloth, Index* indices, std::uint32_t capacity) {
   need_pointer("indices", indices);
@@ -125,66 +193,9 @@ pleat_result cloth_read_vertices(const pleat_world* handle, pleat_cloth cloth, c
     const ClothRecord& record = need_cloth(world, cloth);
     need_visible(record);
     const pleat_vertex_target target = read_def("target", given, default_target());
-    need_pointer("target.data", target.data);
     const DrawnVertices drawn(world, record);
-    need_capacity("target.capacity", target.capacity, drawn.count());
-    need_range("target.position_format", target.position_format, 0, PLEAT_FORMAT_16);
-    need_range("target.normal_format", target.normal_format, 0, PLEAT_FORMAT_16);
-    const auto fits = [&](const char* name, std::uint32_t offset, std::size_t bytes) {
-      if (offset != PLEAT_NO_ATTRIBUTE && std::uint64_t{offset} + bytes > target.stride) {
-        refuse(std::string("target.") + name + " is " + std::to_string(offset) + ", beyond a stride of " +
-               std::to_string(target.stride));
-      }
-      return offset != PLEAT_NO_ATTRIBUTE;
-    };
-    const auto size_of = [](std::uint32_t format) {
-      return format == PLEAT_FORMAT_16 ? sizeof(std::uint16_t) : sizeof(float);
-    };
-    const bool with_position = fits("position_offset", target.position_offset, 3 * size_of(target.position_format));
-    const bool with_normal = fits("normal_offset", target.normal_offset, 3 * size_of(target.normal_format));
-    const bool with_uv = fits("uv_offset", target.uv_offset, 2 * sizeof(float));
-    const bool with_tangent = fits("tangent_offset", target.tangent_offset, 4 * size_of(target.normal_format));
-    if (with_tangent) {
-      need_compiled(kHasSmoothing, "target.tangent_offset: the tangent", "PLEAT_SMOOTHING");
-      if (record.settings.tangents == 0)
-        refuse("target.tangent_offset is given, but the cloth's setting tangents is 0");
-    }
-
-    const bool packs_position = with_position && target.position_format == PLEAT_FORMAT_16;
-    const bool packs_normal = target.normal_format == PLEAT_FORMAT_16;
-    const Box bounds = packs_position ? drawn.bounds() : Box{};
-    const UnormBox box(bounds.low, bounds.high);
-    char* out = static_cast<char*>(target.data);
-    const auto write = [&](std::uint32_t offset, const auto&... values) {  // one by one: no detour through memory
-      char* to = out + offset;
-      ((std::memcpy(to, &values, sizeof values), to += sizeof values), ...);
-    };
-    const auto write_direction = [&](std::uint32_t offset, auto... values) {
-      packs_normal ? write(offset, snorm16(values)...) : write(offset, values...);
-    };
-    for (std::uint32_t i = 0; i < drawn.count(); ++i, out += target.stride) {
-      if (with_position) {
-        const Vec3 p = drawn.position(i);
-        if (packs_position) {
-          const auto [x, y, z] = box.pack(p);
-          write(target.position_offset, x, y, z);
-        } else {
-          write(target.position_offset, p.x, p.y, p.z);
-        }
-      }
-      if (with_normal) {
-        const Vec3 n = drawn.normal(i);
-        write_direction(target.normal_offset, n.x, n.y, n.z);
-      }
-      if (with_uv) {
-        const auto [u, v] = drawn.uv(i);
-        write(target.uv_offset, u, v);
-      }
-      if (with_tangent) {
-        const auto [x, y, z, handedness] = drawn.tangent(i);
-        write_direction(target.tangent_offset, x, y, z, handedness);
-      }
-    }
+    need_target(target, record, drawn.count());
+    write_vertices(drawn, target);
   });
 }
 
