@@ -100,7 +100,10 @@ typedef struct pleat_world_def {
   float air_density;          /* kg/m3; default 1.225 */
   float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/360 */
   pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up.
-                                 Only the matrices of PLEAT_INTEGRATOR_IMPLICIT_EULER are Eigen's and go past it */
+                                 It gives what worlds, garments, cloths and bodies keep, and pleat_stats.bytes counts
+                                 that. Past both go Bullet's trees of the bodies, the matrices of
+                                 PLEAT_INTEGRATOR_IMPLICIT_EULER, which are Eigen's, the world's own threads, and what
+                                 a call other than world_step needs only until it returns */
   pleat_free_fn free;
   void* memory_user;
   pleat_log_fn log; /* null (default): warnings and errors go to stderr */
@@ -135,12 +138,14 @@ typedef struct pleat_shape_def {
   const float* ring_heights;  /* rings: y, m */
 } pleat_shape_def;
 
-/* What was found in a garment's mesh. Faults marked * are repaired, the others refuse the mesh. */
+/* What was found in a garment's mesh. Faults marked * are repaired, the others refuse the mesh. A vertex that no
+ * triangle uses, and that is no pin, is at every tick's end where a particle in the middle of the cloth is, wherever it
+ * was put. */
 typedef struct pleat_mesh_report {
   uint32_t degenerate_triangles;  /* * zero area or a repeated corner: left out */
   uint32_t duplicate_triangles;   /* * same three corners as another: left out */
   uint32_t flipped_triangles;     /* * winding against its neighbours': turned */
-  uint32_t unreferenced_vertices; /* * no triangle uses it: kept as an inert particle, so indices stay the host's */
+  uint32_t unreferenced_vertices; /* * no triangle uses it: kept, so that indices stay the host's; see below */
   uint32_t nonmanifold_edges;     /* more than two triangles on an edge */
   uint32_t nonorientable_edges;   /* no consistent winding exists (a Moebius strip) */
   uint32_t nonmanifold_vertices;  /* two fans touch in one point: accepted, but shading there is an average */
@@ -333,7 +338,7 @@ typedef struct pleat_collider_def {
   float radius_b;        /* tapered capsule: of the ball about b, m, >= 0 */
   float position[3];     /* plane, box, hull: origin of the body's frame, m */
   float rotation[4];     /* of that frame, a unit quaternion x, y, z, w; default 0, 0, 0, 1 */
-  float half_extents[3]; /* box: m, > 0 */
+  float half_extents[3]; /* box: m, at least 1e-4 */
 } pleat_collider_def;
 
 /* Settings that may change while the collider lives (collider_set). Filled by collider_get. */
@@ -363,8 +368,9 @@ typedef struct pleat_stats {
                                   stiffest edges or hinges acted as stiff as is stable. The log says so once */
   uint64_t teleports;          /* ticks of a cloth that carried it along with pins that jumped, declared or found. The
                                   log says once when one was found */
-  uint64_t rollbacks;          /* ticks of a cloth that began anew with twice the substeps: it had ended not finite, or
-                                  with more energy than anything could have given it */
+  uint64_t rollbacks;          /* ticks of a cloth that began anew with twice the substeps, and again with four times
+                                  as many where that did not help: it had ended not finite, or with more energy than
+                                  anything could have given it */
   uint64_t fallbacks;          /* of these, ticks for which no number of substeps was enough: the cloth was left as it
                                   had been, at rest, its pins where they should be. The log says so once */
   uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
@@ -453,7 +459,8 @@ typedef struct pleat_api {
   /* Coarse particles; either pointer may be null. capacity: particles. */
   pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions, float* velocities,
                                        uint32_t capacity);
-  /* Replaces all positions and velocities (null: zero): load a saved state, or place the cloth anew. Pins move too.
+  /* Replaces all positions, at most 1e6 m on an axis like all places, and velocities, at most 1e5 m/s on an axis (null:
+     zero): load a saved state, or place the cloth anew. Pins move too.
      Where it is stretched or more than .5 mm inside a body it is held at rest until it is not, .25 s at most. */
   pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
                                         const float* velocities, uint32_t count);
