@@ -101,9 +101,9 @@ typedef struct pleat_world_def {
   float max_substep;          /* s, longest internal step when a cloth's `substeps` is 0; default 1/360 */
   pleat_allocate_fn allocate; /* both null (default): operator new. Never called inside world_step after warm-up.
                                  It gives what worlds, garments, cloths and bodies keep, and pleat_stats.bytes counts
-                                 that. Past both go Bullet's trees of the bodies, the matrices of
-                                 PLEAT_INTEGRATOR_IMPLICIT_EULER, which are Eigen's, the world's own threads, and what
-                                 a call other than world_step needs only until it returns */
+                                 that. Past both go Bullet's trees of the bodies and the matrices of
+                                 PLEAT_INTEGRATOR_IMPLICIT_EULER, which are Eigen's, with the lists of both, the
+                                 world's own threads, and most of what a call needs only until it returns */
   pleat_free_fn free;
   void* memory_user;
   pleat_log_fn log; /* null (default): warnings and errors go to stderr */
