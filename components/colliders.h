@@ -67,13 +67,13 @@ struct CapsulePose {
   std::uint32_t index = 0;
 };
 
-/// A half-space at one moment of a tick: all points with normal . x <= height.
+/// A half-space at one moment of a tick, as seen from `origin`: all points with normal . x <= height.
 struct PlanePose {
   Vec3 normal;   // out of the body, unit
   float height;  // with what is to be kept from it, m
 
-  PlanePose(const PlaneCollider& plane, float t) {
-    const RigidPose pose = interpolate(plane.previous, plane.next, t);
+  PlanePose(const PlaneCollider& plane, float t, const Vec3& origin = {}) {
+    const RigidPose pose = interpolate(plane.previous.from(origin), plane.next.from(origin), t);
     normal = rotate(pose.rotation, {0, 1, 0});
     height = dot(normal, pose.position) + plane.thickness;
   }

@@ -46,8 +46,12 @@ struct SelfColumns {
 struct LayerCloth {
   const Garment* garment = nullptr;
   std::uint32_t layer = 0;
-  ConstVec3View begin, end;  // (P) m, when the tick begins and ends
-  Vec3 low, high;            // of the box around both
+  ConstVec3View begin{}, end{};  // (P) m, when the tick begins and ends
+  Vec3 origin{};                 // of these, m in the world
+  Vec3 low{}, high{};            // of the box around both, m in the world
+
+  /// Particle i at the fraction t of the tick, as seen from another origin.
+  Vec3 at(std::uint32_t i, float t, const Vec3& from) const { return lerp(begin[i], end[i], t) + (origin - from); }
 };
 
 /// What layers keep; ranges as those of SelfColumns.

@@ -52,6 +52,8 @@ struct RigidPose {
   Quaternion rotation;
 
   Vec3 apply(const Vec3& local) const { return position + rotate(rotation, local); }
+  /// As seen from `origin`.
+  RigidPose from(const Vec3& origin) const { return {position - origin, rotation}; }
   friend bool operator==(const RigidPose&, const RigidPose&) = default;
 };
 
@@ -66,6 +68,8 @@ struct RigidMotion {
   Quaternion rotation;
 
   Vec3 apply(const Vec3& p) const { return to + rotate(rotation, p - from); }
+  /// The same of points that are moved by `by`.
+  RigidMotion moved(const Vec3& by) const { return {from + by, to + by, rotation}; }
   /// This one first.
   RigidMotion then(const RigidMotion& next) const { return {from, next.apply(to), next.rotation * rotation}; }
 };

@@ -57,4 +57,6 @@ bool is_finite(const Vec3T<T>& a) {
 
 using Vec3 = Vec3T<float>;
 
+inline Vec3 lerp(const Vec3& a, const Vec3& b, float t) { return a + (b - a) * t; }
+
 }  // namespace pleat

@@ -4,6 +4,7 @@
 #include "engine/calls.h"
 #include "engine/cloth_tick.h"
 #include "engine/layers.h"
+#include "engine/origin.h"
 #include "engine/schedule.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/self_candidates.h"
@@ -209,7 +210,7 @@ pleat_result cloth_move_pins(pleat_world* handle, pleat_cloth cloth, const float
     if (count != pins)
       refuse("count is " + std::to_string(count) + ", the garment has " + std::to_string(pins) + " pins");
     const HostVectors next("positions", positions, stride, count);
-    for (std::uint32_t k = 0; k < count; ++k) world.pin_next.view().set(record.pin_begin + k, next[k]);
+    for (std::uint32_t k = 0; k < count; ++k) world.pin_next.view().set(record.pin_begin + k, next[k] - record.origin);
   });
 }
 
@@ -221,7 +222,7 @@ pleat_result cloth_read_particles(const pleat_world* handle, pleat_cloth cloth, 
     const std::uint32_t count = record.garment().particle_count;
     need_capacity("capacity", capacity, count);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec3 x = world.particles.position.view()[record.particle_begin + i];
+      const Vec3 x = world.particles.position.view()[record.particle_begin + i] + record.origin;
       const Vec3 v = world.particles.velocity.view()[record.particle_begin + i];
       if (positions != nullptr) std::memcpy(positions + 3 * i, &x, sizeof x);
       if (velocities != nullptr) std::memcpy(velocities + 3 * i, &v, sizeof v);
@@ -241,10 +242,11 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     const HostVectors x("positions", positions, 0, count);
     const HostVectors v("velocities", velocities, 0, velocities != nullptr ? count : 0, 3, kFastest);
     for (std::uint32_t i = 0; i < count; ++i) {
-      world.particles.position.view().set(record.particle_begin + i, x[i]);
+      world.particles.position.view().set(record.particle_begin + i, x[i] - record.origin);
       world.particles.velocity.view().set(record.particle_begin + i, velocities != nullptr ? v[i] : Vec3{});
     }
     move_pins_to_particles(world, record);
+    recentre(world, record);
     record.pin_velocity = {};
     record.declared_jump.reset();
     record.settling = kSettling;

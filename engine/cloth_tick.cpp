@@ -101,6 +101,7 @@ std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [
   return run(SubstepBound{.particle_count = t.garment.particle_count,
                           .position = t.position,
                           .velocity = t.velocity,
+                          .origin = t.cloth.origin,
                           .capsules = &t.world.capsules,
                           .bodies = t.world.bodies.get(),
                           .meshes = t.world.mesh_pointers.data(),

@@ -18,6 +18,7 @@ void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_repo
                       .position = world.particles.position.view().from(cloth.particle_begin),
                       .pattern = drawn ? cloth.pattern() : nullptr,
                       .drawn_position = drawn ? world.drawn.position.view().from(cloth.drawn_begin) : ConstVec3View{},
+                      .origin = cloth.origin,
                       .capsules = &world.capsules,
                       .planes = world.planes.data(),
                       .plane_count = world.planes.size(),
@@ -41,7 +42,11 @@ PosedCloth posed(const World& world, const ClothRecord& cloth) {
 }
 
 std::size_t crossings(const World& world, const ClothRecord& edges, const ClothRecord& faces) {
-  return run(Crossings{posed(world, edges), posed(world, faces), &edges == &faces, &world.workers[0].near_scratch});
+  return run(Crossings{.edges = posed(world, edges),
+                       .faces = posed(world, faces),
+                       .itself = &edges == &faces,
+                       .scratch = &world.workers[0].near_scratch,
+                       .apart = faces.origin - edges.origin});
 }
 
 void add_crossings(const World& world, const ClothRecord& cloth, pleat_contact_report& report) {

@@ -16,8 +16,10 @@ constexpr std::uint32_t kYellow = 0xf2d21fffu, kOrange = 0xf27a1fffu, kPurple = 
 struct Lines {
   pleat_line_fn draw;
   void* user;
+  Vec3 origin;  // of what is drawn, m in the world
 
-  void line(const Vec3& from, const Vec3& to, std::uint32_t rgba) const {
+  void line(const Vec3& begin, const Vec3& end, std::uint32_t rgba) const {
+    const Vec3 from = begin + origin, to = end + origin;
     const float a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
     draw(a, b, rgba, user);
   }
@@ -87,8 +89,8 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
   return guarded(as_world(handle), "world_debug_draw", [&] {
     const World& world = need_world(handle);
     if (draw == nullptr) refuse("draw is null");
-    const Lines lines{draw, user};
     for (const ClothRecord& cloth : world.clothes) {
+      const Lines lines{draw, user, cloth.origin};
       const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
       if (what & PLEAT_DEBUG_COARSE_EDGES) draw_edges(cloth.garment(), x, lines);
 #ifdef PLEAT_WITH_SMOOTHING
@@ -103,7 +105,7 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
       }
 #endif
     }
-    if (what & PLEAT_DEBUG_COLLIDERS) draw_colliders(world, lines);
+    if (what & PLEAT_DEBUG_COLLIDERS) draw_colliders(world, {draw, user, {}});
   });
 }
 

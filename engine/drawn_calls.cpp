@@ -25,6 +25,7 @@ class DrawnVertices {
       : garment_(cloth.garment()),
         pattern_(cloth.pattern()),
         particles_(world.particles.position.view().from(cloth.particle_begin)),
+        origin_(cloth.origin),
         places_(pattern_ != nullptr ? pattern_->vertex_count : garment_.particle_count),
         count_(pattern_ != nullptr ? pattern_->shaded_count() : places_),
         position_(particles_) {
@@ -38,8 +39,8 @@ class DrawnVertices {
   }
 
   std::uint32_t count() const { return count_; }
-  Box bounds() const { return box_of(position_, places_); }
-  Vec3 position(std::uint32_t i) const { return position_[place(i)]; }
+  Box bounds() const { return box_of(position_, places_).moved(origin_); }
+  Vec3 position(std::uint32_t i) const { return position_[place(i)] + origin_; }
   Vec3 normal(std::uint32_t i) const { return pattern_ != nullptr ? normal_[i] : coarse_normal(i); }
   std::array<float, 4> tangent(std::uint32_t i) const {
     return {tangent_.x[i], tangent_.y[i], tangent_.z[i], handedness_[i]};
@@ -87,6 +88,7 @@ class DrawnVertices {
   const Garment& garment_;
   const TessellationPattern* pattern_;
   ConstVec3View particles_;
+  Vec3 origin_;
   std::uint32_t places_, count_;  // without and with twins
   const std::uint32_t* twins_ = nullptr;
   ConstVec3View position_, normal_, tangent_;
@@ -206,8 +208,8 @@ pleat_result cloth_bounds(const pleat_world* handle, pleat_cloth cloth, float lo
     need_pointer("low", low);
     need_pointer("high", high);
     const ConstVec3View particles = world.particles.position.view().from(record.particle_begin);
-    const Box box =
-        record.visible ? DrawnVertices(world, record).bounds() : box_of(particles, record.garment().particle_count);
+    const Box box = record.visible ? DrawnVertices(world, record).bounds()
+                                   : box_of(particles, record.garment().particle_count).moved(record.origin);
     std::memcpy(low, &box.low, sizeof box.low);
     std::memcpy(high, &box.high, sizeof box.high);
   });

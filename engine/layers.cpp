@@ -76,7 +76,8 @@ void publish_layer(World& world, std::uint32_t position) {
   seen.layer = cloth.settings.layer;
   seen.begin = std::as_const(world.layers.begin).view().from(cloth.particle_begin);
   seen.end = std::as_const(world.particles.position).view().from(cloth.particle_begin);
-  const Box box = box_of(seen.begin, count).with(box_of(seen.end, count));
+  seen.origin = cloth.origin;
+  const Box box = box_of(seen.begin, count).with(box_of(seen.end, count)).moved(cloth.origin);
   seen.low = box.low, seen.high = box.high;
 }
 #else

@@ -6,6 +6,7 @@
 
 #include "engine/cloth_tick.h"
 #include "engine/layers.h"
+#include "engine/origin.h"
 #include "engine/room.h"
 #include "engine/run.h"
 #include "engine/schedule_table.h"
@@ -217,6 +218,7 @@ void tick(World& world, float dt) {
     ClothTick t(world, world.workers[0], cloth);
     t.frame_dt = dt;
     run_phase(t, Phase::kFrameBegin);
+    recentre(world, cloth);
   }
   update_bodies(world);
   begin_layers(world);

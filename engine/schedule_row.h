@@ -50,6 +50,7 @@ inline void move_capsules(ClothTick& t, float reach) {
                      .bodies = w.bodies.get(),
                      .particle_count = t.garment.particle_count,
                      .position = t.position,
+                     .origin = t.cloth.origin,
                      .reach = reach,
                      .t0 = t.t0,
                      .t1 = t.t1,

@@ -16,7 +16,7 @@ bool is_carried([[maybe_unused]] const ClothTick& t) {
 #ifdef PLEAT_WITH_COLLISION
   if (t.settings.layer < 2) return false;
   const World& w = t.world;
-  const Box box = box_of(t.position, t.garment.particle_count);
+  const Box box = box_of(t.position, t.garment.particle_count).moved(t.cloth.origin);
   for (std::size_t k = 0; k < w.clothes.size(); ++k) {
     const bool near = may_touch(t.garment, t.settings.layer, t.settings.thickness, box, w.layers.clothes[k]);
     if (near && w.clothes[k].calm < kFallAsleep) return true;
@@ -28,16 +28,15 @@ bool is_carried([[maybe_unused]] const ClothTick& t) {
 bool is_disturbed(const ClothTick& t) {
   if (is_carried(t)) return true;
   const World& w = t.world;
-  const Disturbance around{.garment = &t.garment,
-                           .position = t.position,
-                           .pin_previous = t.pin_previous,
-                           .pin_next = t.pin_next,
-                           .capsules = &w.capsules,
-                           .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
-                           .planes = {w.planes.data(), w.planes.size()},
-                           .reach = t.settings.thickness + kNear};
-  assert(around.validate());
-  return around.run();
+  return run(Disturbance{.garment = &t.garment,
+                         .position = t.position,
+                         .origin = t.cloth.origin,
+                         .pin_previous = t.pin_previous,
+                         .pin_next = t.pin_next,
+                         .capsules = &w.capsules,
+                         .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
+                         .planes = {w.planes.data(), w.planes.size()},
+                         .reach = t.settings.thickness + kNear});
 }
 
 bool in_gusts(const ClothTick& t) {

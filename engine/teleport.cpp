@@ -22,6 +22,7 @@ void carry_bodies([[maybe_unused]] World& world, [[maybe_unused]] const RigidMot
 #endif
 }
 
+/// jump: from the cloth's origin, as its positions.
 void carry(ClothTick& t, const RigidMotion& jump) {
   World& world = t.world;
   RigidCarry cloth{
@@ -35,7 +36,7 @@ void carry(ClothTick& t, const RigidMotion& jump) {
     previous.set(k, jump.apply(previous[k]));
     if (!moved) next.set(k, previous[k]);
   }
-  carry_bodies(world, jump);
+  carry_bodies(world, jump.moved(t.cloth.origin));
   t.cloth.bending_left = 0.0f;
   wake(t.cloth);
   t.cloth.self_pair_count = kNone;
@@ -55,7 +56,7 @@ void teleport(ClothTick& t) {
   ClothRecord& cloth = t.cloth;
   const bool declared = cloth.declared_jump.has_value();
   if (declared) {
-    carry(t, *cloth.declared_jump);
+    carry(t, cloth.declared_jump->moved(cloth.origin * -1.0f));
     cloth.pin_velocity = rotate(cloth.declared_jump->rotation, cloth.pin_velocity);
   }
   cloth.declared_jump.reset();

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/layers.h"
+#include "engine/origin.h"
 
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -186,6 +187,7 @@ Handle add_cloth(World& world, GarmentRecord& source, const pleat_cloth_settings
   set_masses(world, cloth);
   ++source.users;
   world.clothes.push_back(cloth);
+  recentre(world, world.clothes.back());
   return world.cloth_handles.add();
 }
 

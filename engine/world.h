@@ -60,6 +60,7 @@ struct ClothRecord {
   GarmentRecord* source = nullptr;
   pleat_cloth_settings settings{};
   std::uint32_t particle_begin = 0, pin_begin = 0, normal_begin = 0, edge_begin = 0, drawn_begin = 0;
+  Vec3 origin;  // m in the world, of its positions and pins; origin.h
   std::uint32_t substeps_taken = 0;
   ContactCounts contacts;
   std::uint32_t self_pair_count = kNone, layer_pair_count = kNone;  // none were sought yet

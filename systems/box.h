@@ -21,6 +21,7 @@ struct Box {
     b.include(high);
     return b;
   }
+  Box moved(const Vec3& by) const { return {low + by, high + by}; }
   Box grown(float by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   bool overlaps(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&

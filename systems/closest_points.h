@@ -10,8 +10,6 @@
 
 namespace pleat {
 
-inline Vec3 lerp(const Vec3& a, const Vec3& b, float t) { return a + (b - a) * t; }
-
 /// t in [0, 1] such that lerp(a, b, t) is the point of segment ab closest to p; 0 where the segment has no length.
 inline float closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;

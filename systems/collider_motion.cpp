@@ -27,8 +27,8 @@ void ColliderMotion::run(Stats& stats) const {
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::uint32_t k = 0; k < *pose_count; ++k) {
     const std::uint32_t i = poses[k].index;
-    poses[k] = {.a = lerp(a0[i], a1[i], t1),
-                .b = lerp(b0[i], b1[i], t1),
+    poses[k] = {.a = lerp(a0[i] - origin, a1[i] - origin, t1),
+                .b = lerp(b0[i] - origin, b1[i] - origin, t1),
                 .step_a = (a1[i] - a0[i]) * (t1 - t0),
                 .step_b = (b1[i] - b0[i]) * (t1 - t0),
                 .radius = capsules->radius[i] + capsules->thickness[i],
@@ -41,7 +41,7 @@ void ColliderMotion::run(Stats& stats) const {
 
 std::uint32_t ColliderMotion::seek(const Box& box) const {
   std::uint32_t found = 0;
-  bodies->for_each_capsule(box, [&](std::uint32_t i) {
+  bodies->for_each_capsule(box.moved(origin), [&](std::uint32_t i) {
     if (found < capacity) poses[found].index = i;
     ++found;
   });

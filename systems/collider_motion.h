@@ -21,6 +21,7 @@ struct ColliderMotion {
   const CollisionBodies* bodies = nullptr;
   std::uint32_t particle_count = 0;
   ConstVec3View position;
+  Vec3 origin{};       // of positions and poses, m in the world
   float reach = 0.0f;  // m
   float t0 = 0.0f, t1 = 1.0f;
   CapsulePose* poses = nullptr;

@@ -40,7 +40,7 @@ std::size_t Crossings::run() const {
     Box box;
     for (int k = 0; k < 3; ++k) {
       corner[k] = faces.garment->face_particle[k][f];
-      x[k] = faces.position[corner[k]];
+      x[k] = faces.position[corner[k]] + apart;
       box.include(x[k]);
     }
     grid.for_each_near(box.grown(longest), [&](std::uint32_t e, const Vec3&) {

@@ -13,6 +13,7 @@ struct Crossings {
   PosedCloth edges, faces;
   bool itself = false;  // both are the same cloth
   NearScratch* scratch = nullptr;
+  Vec3 apart{};  // m, from the zero of the edges' positions to that of the faces'
 
   bool validate() const;
   std::size_t run() const;

@@ -22,7 +22,7 @@ bool Disturbance::validate() const {
 
 bool Disturbance::run() const {
   if (garment->pins.size() != 0 && moves(pin_previous, pin_next, garment->pins.size())) return true;
-  const Box cloth = box_of(position, garment->particle_count).grown(reach);
+  const Box cloth = box_of(position, garment->particle_count).grown(reach).moved(origin);
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::size_t i = 0; i < capsules->size(); ++i) {

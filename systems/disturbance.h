@@ -14,6 +14,7 @@ namespace pleat {
 struct Disturbance {
   const Garment* garment = nullptr;
   ConstVec3View position;
+  Vec3 origin{};  // of positions, m in the world
   ConstVec3View pin_previous, pin_next;
   const CapsuleColumns* capsules = nullptr;
   std::span<const MeshCollider* const> meshes;

@@ -25,7 +25,7 @@ void search(const LayerCandidates& in, std::uint32_t cloth, NearMemory& memory, 
                                relative_motion(in, in.previous, in.t0, other));
   const Vec3View pose = in.scratch->pose.view();
   for (std::uint32_t i = 0; i < other.garment->particle_count; ++i) {
-    pose.set(i, lerp(other.begin[i], other.end[i], in.t1));
+    pose.set(i, other.at(i, in.t1, in.origin));
   }
   const PosedCloth own{in.garment, in.position}, below{other.garment, pose};
   NearSearch near{.first = own,
@@ -70,7 +70,8 @@ bool LayerCandidates::validate() const {
 }
 
 void LayerCandidates::run(Stats& stats) const {
-  const Box box = box_of(previous, garment->particle_count).with(box_of(position, garment->particle_count));
+  const std::uint32_t count = garment->particle_count;
+  const Box box = box_of(previous, count).with(box_of(position, count)).moved(origin);
   if (!around->box.holds(box)) *around = seek(*this, box.grown(kSkin));
   const auto is_near = [&](const LayerCloth& other) { return may_touch(*garment, layer, distance, box, other); };
   const auto still_holds = [&](const LayerCloth& other) {

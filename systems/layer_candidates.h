@@ -8,13 +8,13 @@
 
 namespace pleat {
 
-/// Whether a cloth that stays in the box, of this layer and keeping this distance, m, may touch the other one in this
-/// tick, or comes so near that pairs are sought.
+/// Whether a cloth that stays in the box, in the world, of this layer and keeping this distance, m, may touch the other
+/// one in this tick, or comes so near that pairs are sought.
 bool may_touch(const Garment& garment, std::uint32_t layer, float distance, const Box& box, const LayerCloth& other);
 
 /// Clothes [begin, end): no other one may touch the cloth in this tick while it stays in the box.
 struct LayersAround {
-  Box box;  // as made, nothing stays in it
+  Box box;  // in the world; as made, nothing stays in it
   std::uint32_t begin = 0, end = 0;
 };
 
@@ -27,6 +27,7 @@ struct LayersAround {
 struct LayerCandidates {
   const Garment* garment = nullptr;
   ConstVec3View position, previous;
+  Vec3 origin{};  // of these, m in the world
   std::uint32_t layer = 0;
   std::span<const LayerCloth> clothes;  // of these, the ones of layers 1 .. layer - 1 are below
   float t0 = 0.0f, t1 = 1.0f;           // fractions of the tick: begin and end of the substep

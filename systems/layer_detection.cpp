@@ -42,8 +42,8 @@ void LayerDetection::run(Stats& stats) const {
     Vec3 x[4], before[4];
     for (int k = 0; k < 4; ++k) {
       const std::uint32_t i = corners.particle[k];
-      x[k] = is_own(k) ? position[i] : lerp(other.begin[i], other.end[i], t1);
-      before[k] = is_own(k) ? previous[i] : lerp(other.begin[i], other.end[i], t0);
+      x[k] = is_own(k) ? position[i] : other.at(i, t1, origin);
+      before[k] = is_own(k) ? previous[i] : other.at(i, t0, origin);
     }
     Closeness near;
     if (!closeness(pair->kind, x, before, pair->side, near)) continue;

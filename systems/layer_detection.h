@@ -20,6 +20,7 @@ struct LayerDetection {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
   ConstVec3View previous;  // when the substep began
+  Vec3 origin{};           // of these, m in the world
   const float* inverse_mass = nullptr;
   std::span<const LayerCloth> clothes;
   float t0 = 0.0f, t1 = 1.0f;  // fractions of the tick: begin and end of the substep

@@ -42,8 +42,8 @@ struct Gatherer {
     f.around = f.around.grown(reach + f.slack);
     f.normal = normalized_or(cross(f.x[1] - f.x[0], f.x[2] - f.x[0]), Vec3{});
     const Box box = swept.grown(search + kSlack + kRounding);
-    if (!box.overlaps(in.bodies->swept_box(mesh))) return;
-    in.bodies->for_each_triangle(mesh, box, [&](std::uint32_t t) { consider(f, face, t); });
+    if (!box.moved(in.origin).overlaps(in.bodies->swept_box(mesh))) return;
+    in.bodies->for_each_triangle(mesh, box.moved(in.origin), [&](std::uint32_t t) { consider(f, face, t); });
   }
 
  private:
@@ -62,7 +62,7 @@ struct Gatherer {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = pose.corner(t, k);
       now[k] = pose.vertex(v);
-      then[k] = pose.next[v] - f.drift;
+      then[k] = pose.next_vertex(v) - f.drift;
       for (const Vec3& p : {now[k], then[k]}) {
         const float height = dot(p - f.x[0], f.normal);
         low = std::min(low, height);
@@ -142,8 +142,8 @@ void MeshCandidates::run() const {
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     const MeshCollider& mesh = *meshes[m];
     const float mesh_reach = reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
-    if (!mesh.enabled || !box.grown(search + kSlack + kRounding).overlaps(bodies->swept_box(m))) continue;
-    const Gatherer gatherer{*this, {mesh, bodies->topology(m), t0, t1}, m, mesh_reach, search};
+    if (!mesh.enabled || !box.grown(search + kSlack + kRounding).moved(origin).overlaps(bodies->swept_box(m))) continue;
+    const Gatherer gatherer{*this, {mesh, bodies->topology(m), t0, t1, origin}, m, mesh_reach, search};
     for (std::uint32_t f = 0; f < garment->face_count && out.complete; ++f) gatherer.gather_face(f);
   }
 }

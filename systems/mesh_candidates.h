@@ -26,6 +26,7 @@ struct MeshCandidates {
   ConstVec3View previous;  // when the substep began
   ConstVec3View velocity;
   const float* inverse_mass = nullptr;
+  Vec3 origin{};  // of positions, m in the world
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
   float t0 = 0.0f, t1 = 1.0f;                   // fractions of the tick: begin and end of the substep

@@ -59,9 +59,9 @@ struct MeshTest {
   /// The body's triangles from which some drawn vertex of the face may be too near.
   std::uint32_t find_near(const MeshPose::Corners& face, const Vec3& normal, const Bulge& bulge) const {
     const Box box = face.box().grown(kept + bulge.reach);
-    if (!box.overlaps(in.bodies->swept_box(mesh))) return 0;
+    if (!box.moved(in.origin).overlaps(in.bodies->swept_box(mesh))) return 0;
     std::uint32_t count = 0;
-    in.bodies->for_each_triangle(mesh, box, [&](std::uint32_t t) {
+    in.bodies->for_each_triangle(mesh, box.moved(in.origin), [&](std::uint32_t t) {
       const MeshPose::Corners at = pose.corners(t);
       const float a = dot(at.a - face.a, normal), b = dot(at.b - face.a, normal), c = dot(at.c - face.a, normal);
       const float low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
@@ -156,8 +156,8 @@ bool MeshClearance::validate() const {
 void MeshClearance::run() const {
   const Box cloth = box_of(drawn_position, pattern->vertex_count).with(box_of(footprint, pattern->vertex_count));
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
-    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t, t}, m};
-    if (!meshes[m]->enabled || !cloth.grown(test.kept).overlaps(bodies->swept_box(m))) continue;
+    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t, t, origin}, m};
+    if (!meshes[m]->enabled || !cloth.grown(test.kept).moved(origin).overlaps(bodies->swept_box(m))) continue;
     for (std::uint32_t f = 0; f < garment->face_count; ++f) test.gather(f);
   }
 }

@@ -30,6 +30,7 @@ struct MeshClearance {
   const Garment* garment = nullptr;
   const TessellationPattern* pattern = nullptr;
   ConstVec3View footprint;
+  Vec3 origin{};  // of positions, m in the world
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
   float t = 1.0f;                               // fraction of the tick at which the bodies are asked for

@@ -49,10 +49,10 @@ struct MeshTest {
     Box box;
     for (const auto& particle : in.garment->face_particle) box.include(in.position[particle[face]]);
     box = box.grown(search);
-    if (!box.overlaps(in.bodies->swept_box(mesh))) return;
+    if (!box.moved(in.origin).overlaps(in.bodies->swept_box(mesh))) return;
     Face f = measure(face);
     const std::uint32_t own = features_of_face(*in.garment, in.inverse_mass, face);
-    in.bodies->for_each_triangle(mesh, box,
+    in.bodies->for_each_triangle(mesh, box.moved(in.origin),
                                  [&](std::uint32_t t) { meet(f, t, own & features_of_body(pose.topology, t)); });
     add_rows(f);
   }
@@ -257,13 +257,13 @@ void MeshDetection::run(Stats& stats) const {
   const MeshCandidate* const end = among ? next + candidates->count : nullptr;
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     if (among ? next == end || next->mesh != m : !meshes[m]->enabled) continue;
-    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1}, rows, margin, stats};
+    const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1, origin}, rows, margin, stats};
     if (among) {
       for (const MeshCandidate* begin = next; next != end && next->mesh == m; begin = next) {
         while (next != end && next->face == begin->face && next->mesh == m) ++next;
         test.test_candidates(begin, next);
       }
-    } else if (cloth.grown(test.search).overlaps(bodies->swept_box(m))) {
+    } else if (cloth.grown(test.search).moved(origin).overlaps(bodies->swept_box(m))) {
       for (std::uint32_t f = 0; f < garment->face_count; ++f) test.test_face(f, m);
     }
   }

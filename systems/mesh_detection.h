@@ -27,6 +27,7 @@ struct MeshDetection {
   ConstVec3View position;  // predicted
   ConstVec3View previous;  // when the substep began
   const float* inverse_mass = nullptr;
+  Vec3 origin{};  // of positions, m in the world
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
   /// Null or incomplete: the trees are asked instead, the rows are the same.

@@ -41,16 +41,21 @@ inline std::uint32_t features_of_body(const BodyTopology& topology, std::uint32_
 struct MeshPose {
   const MeshCollider& mesh;
   const BodyTopology& topology;
-  float t0, t1;  // fractions of the tick; the pose is the one at t1
+  float t0, t1;   // fractions of the tick; the pose is the one at t1
+  Vec3 origin{};  // from which it is seen, m in the world
   ConstVec3View previous = mesh.previous.view(), next = mesh.next.view(), local = mesh.local.view();
   bool rigid = mesh.is_rigid();
-  RigidPose begin = interpolate(mesh.previous_pose, mesh.next_pose, t0);
-  RigidPose end = interpolate(mesh.previous_pose, mesh.next_pose, t1);
+  RigidPose begin = interpolate(mesh.previous_pose.from(origin), mesh.next_pose.from(origin), t0);
+  RigidPose end = interpolate(mesh.previous_pose.from(origin), mesh.next_pose.from(origin), t1);
 
   std::uint32_t corner(std::uint32_t triangle, int k) const {
     return mesh.triangles[3 * triangle + static_cast<std::uint32_t>(k)];
   }
-  Vec3 vertex(std::uint32_t v) const { return rigid ? end.apply(local[v]) : lerp(previous[v], next[v], t1); }
+  Vec3 vertex(std::uint32_t v) const {
+    return rigid ? end.apply(local[v]) : lerp(previous[v] - origin, next_vertex(v), t1);
+  }
+  /// Where it will be when the tick ends.
+  Vec3 next_vertex(std::uint32_t v) const { return next[v] - origin; }
   /// Motion from t0 to t1.
   Vec3 step(std::uint32_t v) const {
     return rigid ? end.apply(local[v]) - begin.apply(local[v]) : (next[v] - previous[v]) * (t1 - t0);

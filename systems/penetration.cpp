@@ -44,7 +44,7 @@ struct InMesh {
   MeshPose pose;
   const CollisionBodies& bodies;
   std::uint32_t index;
-  Box box = bodies.swept_box(index);
+  Box box = bodies.swept_box(index).moved(pose.origin * -1.0f);
 
   /// Looks further and further; beyond the body's size nothing can be inside.
   float distance(const Vec3& p) const {
@@ -53,7 +53,7 @@ struct InMesh {
       float least2 = reach * reach;
       std::uint32_t nearest = kNoTriangle;
       Barycentrics at{};
-      bodies.for_each_triangle(index, Box{p, p}.grown(reach), [&](std::uint32_t t) {
+      bodies.for_each_triangle(index, Box{p, p}.grown(reach).moved(pose.origin), [&](std::uint32_t t) {
         const MeshPose::Corners body = pose.corners(t);
         const Barycentrics here = closest_on_triangle(p, body.a, body.b, body.c);
         const Vec3 away = p - here.point(body.a, body.b, body.c);
@@ -141,8 +141,11 @@ void for_each_body(const Penetration& in, const Visit& visit) {
   for (std::uint32_t i = 0; in.capsules != nullptr && i < in.capsules->size(); ++i) {
     const CapsuleColumns& c = *in.capsules;
     if (c.enabled[i] == 0) continue;
-    CapsulePose pose{.a = lerp(c.previous_a.view()[i], c.next_a.view()[i], in.t),
-                     .b = lerp(c.previous_b.view()[i], c.next_b.view()[i], in.t),
+    const auto at = [&](const Vec3Column& previous, const Vec3Column& next) {
+      return lerp(previous.view()[i] - in.origin, next.view()[i] - in.origin, in.t);
+    };
+    CapsulePose pose{.a = at(c.previous_a, c.next_a),
+                     .b = at(c.previous_b, c.next_b),
                      .step_a = {},
                      .step_b = {},
                      .radius = c.radius[i],
@@ -153,11 +156,12 @@ void for_each_body(const Penetration& in, const Visit& visit) {
   for (std::uint32_t i = 0; i < in.plane_count; ++i) {
     PlaneCollider plane = in.planes[i];
     plane.thickness = 0.0f;
-    if (plane.enabled) visit(InPlane{PlanePose(plane, in.t)}, ColliderKind::kPlane, i);
+    if (plane.enabled) visit(InPlane{PlanePose(plane, in.t, in.origin)}, ColliderKind::kPlane, i);
   }
   for (std::uint32_t i = 0; in.bodies != nullptr && i < in.bodies->mesh_count(); ++i) {
     if (!in.meshes[i]->enabled) continue;
-    visit(InMesh{{*in.meshes[i], in.bodies->topology(i), in.t, in.t}, *in.bodies, i}, ColliderKind::kMesh, i);
+    visit(InMesh{{*in.meshes[i], in.bodies->topology(i), in.t, in.t, in.origin}, *in.bodies, i}, ColliderKind::kMesh,
+          i);
   }
 }
 

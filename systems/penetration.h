@@ -33,6 +33,7 @@ struct Penetration {
   ConstVec3View position;                        // (P) m
   const TessellationPattern* pattern = nullptr;  // null: the coarse triangles are what is drawn
   ConstVec3View drawn_position{};                // (V) m
+  Vec3 origin{};                                 // of both, m in the world
   const CapsuleColumns* capsules = nullptr;
   const PlaneCollider* planes = nullptr;
   std::size_t plane_count = 0;

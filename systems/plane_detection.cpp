@@ -16,8 +16,9 @@ void PlaneDetection::run(Stats& stats) const {
   for (std::size_t k = 0; k < plane_count; ++k) {
     const PlaneCollider& plane = planes[k];
     if (!plane.enabled) continue;
-    const PlanePose pose(plane, t1);
-    const RigidStep step(interpolate(plane.previous, plane.next, t0), interpolate(plane.previous, plane.next, t1));
+    const PlanePose pose(plane, t1, origin);
+    const RigidPose from = plane.previous.from(origin), to = plane.next.from(origin);
+    const RigidStep step(interpolate(from, to, t0), interpolate(from, to, t1));
     for (std::uint32_t i = 0; i < particle_count; ++i) {
       const float above = dot(pose.normal, position[i]) - pose.height;
       if (!(above < reach)) continue;

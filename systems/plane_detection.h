@@ -16,6 +16,7 @@ struct PlaneDetection {
   std::uint32_t particle_count = 0;
   ConstVec3View position;  // predicted
   ConstVec3View previous;  // when the substep began
+  Vec3 origin{};           // of positions, m in the world
   const float* inverse_mass = nullptr;
   const PlaneCollider* planes = nullptr;
   std::size_t plane_count = 0;

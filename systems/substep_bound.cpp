@@ -40,7 +40,7 @@ std::uint32_t SubstepBound::run() const {
     own2 = std::max(own2, dot(d, d));
   }
   const float own = std::sqrt(own2);
-  const Box cloth = box_of(position, particle_count).grown(own + length(carried) + thickness);
+  const Box cloth = box_of(position, particle_count).grown(own + length(carried) + thickness).moved(origin);
 
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();

@@ -18,6 +18,7 @@ struct SubstepBound {
 
   std::size_t particle_count = 0;
   ConstVec3View position, velocity;
+  Vec3 origin{};  // of positions, m in the world
   const CapsuleColumns* capsules = nullptr;
   const CollisionBodies* bodies = nullptr;  // knows which capsules are near
   const MeshCollider* const* meshes = nullptr;

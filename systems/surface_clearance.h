@@ -34,6 +34,7 @@ struct SurfaceClearance {
   const Garment* garment = nullptr;
   const TessellationPattern* pattern = nullptr;
   ConstVec3View position;
+  Vec3 origin{};  // of positions and capsules, m in the world
   const CapsulePose* capsules = nullptr;
   std::uint32_t capsule_count = 0;
   const PlaneCollider* half_spaces = nullptr;

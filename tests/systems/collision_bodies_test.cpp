@@ -110,7 +110,7 @@ TEST(ColliderMotion, MovesNearCapsulesAndSortsThem) {
   std::uint32_t count = 0;
   Stats stats;
   Box sought;
-  ColliderMotion motion{&capsules, &bodies, 3,      cloth.position.view(), 0.5f, 0.25f, 0.5f, poses.data(),
+  ColliderMotion motion{&capsules, &bodies, 3,      cloth.position.view(), {}, 0.5f, 0.25f, 0.5f, poses.data(),
                         64,        &count,  &sought};
   ASSERT_TRUE(motion.validate());
   motion.run(stats);
@@ -150,9 +150,9 @@ TEST(ColliderMotion, KeepsWhatItFoundWhileTheClothStaysThere) {
   for (int substep = 0; substep < 20; ++substep) {
     const Vec3 before = sought.low;
     const Vec3View x = cloth.position.view();
-    ColliderMotion{&capsules, &bodies, 3, x, 0.2f, 0.25f, 0.5f, kept.data(), 64, &kept_count, &sought}.run(stats);
+    ColliderMotion{&capsules, &bodies, 3, x, {}, 0.2f, 0.25f, 0.5f, kept.data(), 64, &kept_count, &sought}.run(stats);
     Box anew;
-    ColliderMotion{&capsules, &bodies, 3, x, 0.2f, 0.25f, 0.5f, fresh.data(), 64, &fresh_count, &anew}.run(stats);
+    ColliderMotion{&capsules, &bodies, 3, x, {}, 0.2f, 0.25f, 0.5f, fresh.data(), 64, &fresh_count, &anew}.run(stats);
     const Box near = box_of(x, 3).grown(0.2f);
     for (std::uint32_t k = 0; k < fresh_count; ++k) {
       const auto same = [&](const CapsulePose& pose) { return pose.index == fresh[k].index && pose.a == fresh[k].a; };
@@ -190,8 +190,8 @@ TEST(ColliderMotion, ABallThatHoldsTheOtherIsAllThereIs) {
   std::uint32_t count = 0;
   Box sought;
   Stats stats;
-  ColliderMotion{&capsules, &bodies, 3, cloth.position.view(), 0.5f, 0.0f, 1.0f, poses.data(), 2, &count, &sought}.run(
-      stats);
+  ColliderMotion{&capsules, &bodies, 3, cloth.position.view(), {}, 0.5f, 0.0f, 1.0f, poses.data(), 2, &count, &sought}
+      .run(stats);
   ASSERT_EQ(count, 2u);
   for (std::uint32_t i = 0; i < 2; ++i) {
     const float x = i == 0 ? 0.1f : 0.0f;

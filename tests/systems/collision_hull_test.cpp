@@ -69,6 +69,7 @@ void detect(ContactCloth& cloth, const MeshCollider& body) {
                 cloth.position.view(),
                 cloth.previous.view(),
                 cloth.inverse_mass.data(),
+                {},
                 &bodies,
                 &pointer,
                 nullptr,
@@ -167,7 +168,7 @@ TEST(CollisionHull, VerticesTurnOnCirclesWithinTheirSweptBoxes) {
   CollisionBodies bodies(memory());
   bodies.add_mesh(box);
   for (float t = 0.0f; t <= 1.0f; t += 0.125f) {
-    const MeshPose pose{box, bodies.topology(0), 0.0f, t};
+    const MeshPose pose{box, bodies.topology(0), 0.0f, t, {}};
     for (std::uint32_t v = 0; v < box.local.size(); ++v) {
       const Vec3 p = pose.vertex(v), local = box.local.view()[v];
       EXPECT_NEAR(length(p - Vec3{0.1f * t, 0, 0}), length(local), 1e-6f);

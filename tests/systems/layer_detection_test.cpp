@@ -36,7 +36,12 @@ struct Layered {
       box.include(below.x(i));
       box.include(below.x(i) + step);
     }
-    clothes[1] = {&below.garment, 1, std::as_const(begin).view(), std::as_const(end).view(), box.low, box.high};
+    clothes[1] = {.garment = &below.garment,
+                  .layer = 1,
+                  .begin = std::as_const(begin).view(),
+                  .end = std::as_const(end).view(),
+                  .low = box.low,
+                  .high = box.high};
     scratch.pairs.resize(512), scratch.middle.resize(64), scratch.pose.resize(64);
     scratch.grid.make_room(64);
   }

@@ -16,6 +16,7 @@ PlaneDetection detection(ContactCloth& cloth, const std::vector<PlaneCollider>& 
   return {3,
           cloth.position.view(),
           cloth.previous.view(),
+          {},
           cloth.inverse_mass.data(),
           planes.data(),
           planes.size(),
