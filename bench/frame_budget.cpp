@@ -39,8 +39,9 @@ int run_program(int argc, char** argv) {
   uint32_t threads = 1;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
   app.add_option("--clip", request.clip, "in place of the scene's motion")->type_name("BVH");
-  app.add_option("--speed", request.speed, "times as fast as the scene's motion is")->check(CLI::Range(0.01, 100.0));
-  app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
+  app.add_option("--speed", request.speed, "times as fast as the scene's motion is")
+      ->check(pleat::demo::between(0.01, 100.0));
+  app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(pleat::demo::between(1.0, 10000.0));
   app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
   app.add_option("--repeat", repeat, "runs; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--starts", starts, "also the worst quality from that many starts, 1 mm apart")
@@ -57,7 +58,7 @@ int run_program(int argc, char** argv) {
   std::optional<size_t> seen;
   app.add_option("--budget", tick_budget, "level of detail: what a tick of all cloths may take; the first is nearest")
       ->type_name("MS")
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(pleat::demo::between(0.001, 1e6));
   app.add_option("--seen", seen, "copies of a crowd that are in sight, the first ones")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));

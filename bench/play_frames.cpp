@@ -21,7 +21,7 @@ int run_program(int argc, char** argv) {
   demo::SceneRequest request;
   request.scene = "skirt_kick";
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
-  app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
+  app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(pleat::demo::between(1.0, 10000.0));
   app.add_option("--frames", request.frames, "how many frames")->type_name("N")->check(CLI::Range(1, 1000000));
   app.add_option("--set", request.settings, "a setting of the cloths, see `pleat list`; may be repeated")
       ->type_name("KEY=VALUE");

@@ -32,7 +32,7 @@ void add_scene_options(CLI::App& run, SceneRequest& scene) {
   run.add_option("scene", scene.scene, "a scene of `pleat list` or the path of a JSON file, :N sets its size")
       ->capture_default_str();
   run.add_option("--clip", scene.clip, "motion to play in place of the scene's, a BVH file")->type_name("FILE");
-  run.add_option("--rate", scene.rate, "frames a second")->type_name("HZ")->check(CLI::Range(1.0, 10000.0));
+  run.add_option("--rate", scene.rate, "frames a second")->type_name("HZ")->check(pleat::demo::between(1.0, 10000.0));
   run.add_option("--set", scene.settings, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
 }
 
@@ -74,7 +74,8 @@ void add_compare_options(CLI::App& compare, CompareOptions& options) {
 
 int run_program(int argc, char** argv, const pleat_api& api) {
   CLI::App app("Cloth of a few hundred particles, drawn as a curved surface.", "pleat");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none is told below: CLI11 would tell of it where one is unknown
+  app.set_version_flag("--version", std::string("pleat ") + api.version);
   RunOptions options;
   CLI::App* list = app.add_subcommand("list", "scenes, surfaces, integrators, settings, features");
   CLI::App* run = app.add_subcommand("run", "simulate a scene; write pictures, a film and a table of costs");
@@ -85,6 +86,10 @@ int run_program(int argc, char** argv, const pleat_api& api) {
   add_compare_options(*compare, comparison);
   explain->add_option("scene", options.scene.scene, "as for run")->capture_default_str();
   if (const auto status = pleat::demo::parse(app, argc, argv)) return *status;
+  if (app.get_subcommands().empty()) {
+    std::fputs("pleat: a command is missing: list, run, compare or explain; --help says more\n", stderr);
+    return kBadInput;
+  }
   if (*list) pleat::demo::list(api);
   if (*run) pleat::demo::run(api, options);
   if (*compare) pleat::demo::compare(api, comparison);

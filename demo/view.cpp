@@ -1,6 +1,7 @@
 #include "demo/view.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace pleat::demo {
 namespace {
@@ -8,6 +9,11 @@ namespace {
 constexpr float kFieldOfView = 0.55f;  // rad
 constexpr std::uint32_t kInk = 0x2b2b33ff;
 constexpr std::uint32_t kBody = 0xc9c3baff;
+
+/// Of clothes over each other, from the innermost on; all others have the first.
+constexpr struct {
+  std::uint32_t front, back;
+} kCloth[] = {{0xb23a35ff, 0x8a4a50ff}, {0x35629eff, 0x4a5a80ff}, {0xc29a45ff, 0x8c7650ff}, {0x4a8a5aff, 0x507a62ff}};
 
 Mesh mesh_of_surface(const DrawnSurface& surface) {
   Mesh mesh;
@@ -104,6 +110,9 @@ Frame View::frame(const Scene& scene) {
   for (size_t k = 0; k < surfaces_.size(); ++k) {
     read_vertices(scene, k, surfaces_[k]);
     frame.meshes.push_back(mesh_of_surface(surfaces_[k]));
+    const auto& colour = kCloth[scene.def().layered ? k % std::size(kCloth) : 0];
+    frame.meshes.back().front = colour.front;
+    frame.meshes.back().back = colour.back;
   }
   return frame;
 }

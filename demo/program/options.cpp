@@ -1,6 +1,7 @@
 #include "demo/program/options.h"
 
 #include <cassert>
+#include <sstream>
 
 #include "demo/program/entry.h"
 
@@ -13,6 +14,17 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
   return {};
+}
+
+CLI::Validator between(double least, double most) {
+  std::ostringstream bounds;
+  bounds << least << " .. " << most;
+  const auto check = [least, most, bounds = bounds.str()](const std::string& text) {
+    double value = 0;
+    const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return within ? std::string() : "should lie in " + bounds + ", is " + text;
+  };
+  return CLI::Validator(check, "in [" + bounds.str() + "]");
 }
 
 OutputOption::OutputOption(CLI::App& app, const char* name, const char* about)

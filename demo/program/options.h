@@ -13,6 +13,9 @@ namespace pleat::demo {
 /// after what was wrong has been said on stderr.
 std::optional<int> parse(CLI::App& app, int argc, char** argv);
 
+/// A finite number within these bounds (CLI::Range lets nan pass).
+CLI::Validator between(double least, double most);
+
 /// An option that names a file to write, as --json FILE.
 class OutputOption {
  public:

@@ -14,6 +14,13 @@ std::string short_number(double value) {
   return out.str();
 }
 
+/// What a value is, with its article.
+std::string kind(const nlohmann::json& value) {
+  const std::string name = value.type_name();
+  if (value.is_null()) return name;
+  return (value.is_object() || value.is_array() ? "an " : "a ") + name;
+}
+
 std::vector<std::string> words(std::initializer_list<std::string_view> list) { return {list.begin(), list.end()}; }
 
 }  // namespace
@@ -49,14 +56,14 @@ void JsonValue::allow_keys(std::initializer_list<std::string_view> known) const 
 }
 
 std::vector<std::string> JsonValue::keys() const {
-  if (!value_->is_object()) fail(std::string("should be an object, is a ") + value_->type_name());
+  if (!value_->is_object()) fail("should be an object, is " + kind(*value_));
   std::vector<std::string> found;
   for (const auto& [key, unused] : value_->items()) found.push_back(key);
   return found;
 }
 
 std::optional<JsonValue> JsonValue::find(std::string_view key) const {
-  if (!value_->is_object()) fail(std::string("should be an object, is a ") + value_->type_name());
+  if (!value_->is_object()) fail("should be an object, is " + kind(*value_));
   const auto found = value_->find(std::string(key));
   if (found == value_->end()) return std::nullopt;
   return JsonValue(*found, *file_, pointer_ + "/" + std::string(key));
@@ -80,7 +87,7 @@ std::string JsonValue::one_of(std::initializer_list<std::string_view> known) con
 }
 
 std::vector<JsonValue> JsonValue::items() const {
-  if (!value_->is_array()) fail(std::string("should be an array, is a ") + value_->type_name());
+  if (!value_->is_array()) fail("should be an array, is " + kind(*value_));
   std::vector<JsonValue> found;
   for (size_t i = 0; i < value_->size(); ++i) {
     found.push_back(JsonValue((*value_)[i], *file_, pointer_ + "/" + std::to_string(i)));
@@ -89,7 +96,7 @@ std::vector<JsonValue> JsonValue::items() const {
 }
 
 double JsonValue::number(double least, double most) const {
-  if (!value_->is_number()) fail(std::string("should be a number, is a ") + value_->type_name());
+  if (!value_->is_number()) fail("should be a number, is " + kind(*value_));
   const double value = value_->get<double>();
   if (!(value >= least && value <= most)) {
     fail("is " + value_->dump() + ", should lie in " + short_number(least) + " .. " + short_number(most));
@@ -99,18 +106,18 @@ double JsonValue::number(double least, double most) const {
 
 uint32_t JsonValue::integer(uint32_t least, uint32_t most) const {
   if (!value_->is_number_integer()) {
-    fail("should be a whole number, is " + (value_->is_number() ? value_->dump() : value_->type_name()));
+    fail("should be a whole number, is " + (value_->is_number() ? value_->dump() : kind(*value_)));
   }
   return uint32_t(number(least, most));
 }
 
 bool JsonValue::boolean() const {
-  if (!value_->is_boolean()) fail(std::string("should be true or false, is a ") + value_->type_name());
+  if (!value_->is_boolean()) fail("should be true or false, is " + kind(*value_));
   return value_->get<bool>();
 }
 
 std::string JsonValue::text() const {
-  if (!value_->is_string()) fail(std::string("should be a text, is a ") + value_->type_name());
+  if (!value_->is_string()) fail("should be a text, is " + kind(*value_));
   return value_->get<std::string>();
 }
 

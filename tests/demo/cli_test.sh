@@ -34,6 +34,7 @@ accepted() {
 garment='"garment": {"grid": {"rows": 3, "columns": 3}}'
 echo "{$garment, \"gravitas\": 1}" >unknown_key.json
 echo "{$garment, \"rate\": " >truncated.json
+echo '[]' >array.json
 echo '{"garment": {"grid": {"rows": 0, "columns": 3}}}' >nothing.json
 echo '{"garment": {"grid": {"rows": 2000, "columns": 2500}}}' >ten_million.json
 echo '{"garment": {"obj": {"file": "empty.obj"}}}' >empty_garment.json
@@ -64,12 +65,18 @@ refused '--size' run hanging_square:3 --size 12
 refused '--rate' run hanging_square:3 --rate 0
 refused '--frames' run hanging_square:3 --frames -1
 refused '--nonsense' run --nonsense
-refused 'subcommand' nothing
+refused '--rate' run hanging_square:3 --rate nan --no-render
+refused '--rate' run hanging_square:3 --rate inf --no-render
+refused 'bogus' bogus
+refused 'command is missing'
+refused 'an array' run array.json
 refused 'no such scene' explain no_such_scene
 [ "$(cat earlier/frame_0000.png)" = kept ] || fail 'an earlier result was touched'
 
 accepted --help
 accepted run --help
+accepted --version
+[[ $output == 'pleat '[0-9]* ]] || fail "--version says $output"
 accepted list
 for word in skirt_kick pleat symplectic-euler stiffness; do
   [[ $output == *"$word"* ]] || fail "list does not name $word"
