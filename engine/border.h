@@ -28,16 +28,12 @@ inline std::string text(double value) {
   return buffer;
 }
 
-/// Runs `body`; its refusals and failures are logged and become results. The log of `world`, or stderr when it is null.
+/// Runs `body`; its refusals and failures are logged for `host` and become results.
 template <class Body>
-pleat_result guarded(const World* world, const char* call, Body body) noexcept {
+pleat_result guarded(const pleat_world_def& host, const char* call, Body body) noexcept {
   const auto log = [&](const std::string& line) noexcept {
     try {
-      if (world != nullptr) {
-        world->log(PLEAT_LOG_ERROR, call + (": " + line));
-      } else {
-        std::fprintf(stderr, "pleat: %s: %s\n", call, line.c_str());
-      }
+      log_line(host, PLEAT_LOG_ERROR, call + (": " + line));
     } catch (...) {
     }
   };
@@ -54,6 +50,12 @@ pleat_result guarded(const World* world, const char* call, Body body) noexcept {
     log("unexpected failure inside pleat");
     return PLEAT_ERROR_INTERNAL;
   }
+}
+
+/// For the host of `world`; null: to stderr.
+template <class Body>
+pleat_result guarded(const World* world, const char* call, Body body) noexcept {
+  return guarded(world != nullptr ? world->def : pleat_world_def{}, call, body);
 }
 
 inline void need_pointer(const char* name, const void* pointer) {
@@ -167,12 +169,18 @@ pleat_result init_def(const char* call, Def* def, std::size_t size, const Def& d
   });
 }
 
+inline const World* as_world(const pleat_world* world) { return reinterpret_cast<const World*>(world); }
+inline const World& need_world(const pleat_world* world) {
+  need_pointer("world", world);
+  return *as_world(world);
+}
+/// For calls that change it.
 inline World& need_world(pleat_world* world) {
   need_pointer("world", world);
-  return *reinterpret_cast<World*>(world);
+  World& w = *reinterpret_cast<World*>(world);
+  if (w.busy) refuse("the world is busy: its callbacks may only make calls that read");
+  return w;
 }
-inline const World& need_world(const pleat_world* world) { return need_world(const_cast<pleat_world*>(world)); }
-inline const World* as_world(const pleat_world* world) { return reinterpret_cast<const World*>(world); }
 
 template <class Id>
 std::uint32_t need_handle(const char* name, const Registry& registry, Id id) {

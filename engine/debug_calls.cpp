@@ -89,6 +89,7 @@ pleat_result world_debug_draw(const pleat_world* handle, uint32_t what, pleat_li
   return guarded(as_world(handle), "world_debug_draw", [&] {
     const World& world = need_world(handle);
     if (draw == nullptr) refuse("draw is null");
+    const Busy busy(world);
     for (const ClothRecord& cloth : world.clothes) {
       const Lines lines{draw, user, cloth.origin};
       const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);

@@ -73,6 +73,9 @@ typedef struct pleat_collider {
 
 /* ---- host services --------------------------------------------------------------------------------------------- */
 
+/* A world calls its host back during world_step, from the threads that run tasks, and during the calls that draw or
+ * list. From there only calls of it may be made that take a const world; others are refused. */
+
 typedef void* (*pleat_allocate_fn)(size_t bytes, size_t alignment, void* user);
 typedef void (*pleat_free_fn)(void* memory, size_t bytes, size_t alignment, void* user);
 
@@ -419,7 +422,8 @@ typedef struct pleat_api {
   pleat_result (*world_def_init)(pleat_world_def* def, size_t size);
   pleat_result (*world_create)(const pleat_world_def* def, pleat_world** world);
   void (*world_destroy)(pleat_world* world);
-  /* Advances all cloths by dt seconds, 0 < dt <= 1. Pins and colliders arrive at the poses last given. */
+  /* Advances all cloths by dt seconds, 1e-6 <= dt <= 1. Pins and colliders arrive at the poses last given. dt = 0, of
+   * a game that pauses: nothing happens. */
   pleat_result (*world_step)(pleat_world* world, float dt);
   pleat_result (*world_set_gravity)(pleat_world* world, const float gravity[3]);
   pleat_result (*world_set_wind)(pleat_world* world, const float wind[3]);
@@ -460,8 +464,8 @@ typedef struct pleat_api {
   pleat_result (*cloth_read_particles)(const pleat_world* world, pleat_cloth cloth, float* positions, float* velocities,
                                        uint32_t capacity);
   /* Replaces all positions, at most 1e6 m on an axis like all places, and velocities, at most 1e5 m/s on an axis (null:
-     zero): load a saved state, or place the cloth anew. Pins move too.
-     Where it is stretched or more than .5 mm inside a body it is held at rest until it is not, .25 s at most. */
+     zero): load a saved state, or place the cloth anew. Pins move too. A cloth placed without velocities that is
+     stretched by half a percent or more than .5 mm inside a body is held at rest until it is not, .25 s at most. */
   pleat_result (*cloth_write_particles)(pleat_world* world, pleat_cloth cloth, const float* positions,
                                         const float* velocities, uint32_t count);
   /* The drawn surface, as of the last tick or of the last call that made, placed, set or showed the cloth; refused

@@ -178,6 +178,7 @@ void refresh(World& world, ClothRecord& cloth) {
 }
 
 void draw(World& world, ClothRecord& cloth) {
+  const Busy busy(world);
 #ifdef PLEAT_WITH_COLLISION
   if (world.bodies != nullptr && !world.capsules_filed) file_capsules(world);
 #endif
@@ -212,6 +213,7 @@ void replan(World& world, const BodyCensus& before) {
 }
 
 void tick(World& world, float dt) {
+  const Busy busy(world);
   ++world.ticks;
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;
   for (ClothRecord& cloth : world.clothes) {
@@ -230,6 +232,7 @@ void tick(World& world, float dt) {
 }
 
 void explain(const World& world, pleat_text_fn write, void* user) {
+  const Busy busy(world);
   for (const Row& row : schedule_table()) {
     std::string line = row.name;
     line.resize(std::max<std::size_t>(line.size() + 1, 26), ' ');

@@ -119,9 +119,9 @@ World::World(const pleat_world_def& definition)
 
 World::~World() = default;
 
-void World::log(std::uint32_t level, const std::string& line) const {
-  if (def.log != nullptr) {
-    def.log(level, line.c_str(), def.log_user);
+void log_line(const pleat_world_def& host, std::uint32_t level, const std::string& line) {
+  if (host.log != nullptr) {
+    host.log(level, line.c_str(), host.log_user);
   } else if (level != PLEAT_LOG_INFO) {
     std::fprintf(stderr, "pleat: %s\n", line.c_str());
   }

@@ -120,6 +120,9 @@ struct MemoryDelete {
   }
 };
 
+/// A line to the host's log, or to stderr for warnings and errors where it has none.
+void log_line(const pleat_world_def& host, std::uint32_t level, const std::string& line);
+
 struct World {
   explicit World(const pleat_world_def& definition);
   ~World();
@@ -162,9 +165,23 @@ struct World {
   std::uint64_t ticks = 0, substeps = 0;
   double time = 0.0;  // s, of all ticks so far: the gusts' clock
 
-  /// A line to the host's log, or to stderr for warnings and errors where it has none.
-  void log(std::uint32_t level, const std::string& line) const;
+  mutable bool busy = false;  // see Busy
+
+  void log(std::uint32_t level, const std::string& line) const { log_line(def, level, line); }
   bool has_colliders() const { return !colliders.empty(); }
+};
+
+/// While one lives the world may call its host back, and calls from there that would change the world are refused.
+class Busy {
+ public:
+  explicit Busy(const World& world) : world_(world), before_(std::exchange(world.busy, true)) {}
+  ~Busy() { world_.busy = before_; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  const World& world_;
+  bool before_;
 };
 
 /// Takes the garment in. Throws std::bad_alloc; the world is unchanged then.

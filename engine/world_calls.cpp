@@ -41,9 +41,10 @@ pleat_result world_def_init(pleat_world_def* def, size_t size) {
 }
 
 pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
-  return guarded(nullptr, "world_create", [&] {
+  pleat_world_def def{};
+  return guarded(def, "world_create", [&] {
     need_pointer("world", world);
-    const pleat_world_def def = read_def("def", given, default_world());
+    def = read_def("def", given, default_world());
     need_small("gravity", def.gravity, kMostGravity);
     need_small("wind", def.wind, kMostWind);
     need_range("air_density", def.air_density, 0.0, 1e4);
@@ -59,6 +60,7 @@ pleat_result world_create(const pleat_world_def* given, pleat_world** world) {
 void world_destroy(pleat_world* handle) {
   if (handle == nullptr) return;
   World* world = reinterpret_cast<World*>(handle);
+  if (world->busy) return world->log(PLEAT_LOG_ERROR, "world_destroy: the world is busy, and stays");
   HostMemory memory(world->def.allocate, world->def.free, world->def.memory_user);
   std::pmr::polymorphic_allocator<>(&memory).delete_object(world);
 }
@@ -66,6 +68,7 @@ void world_destroy(pleat_world* handle) {
 pleat_result world_step(pleat_world* handle, float dt) {
   return guarded(as_world(handle), "world_step", [&] {
     World& world = need_world(handle);
+    if (dt == 0.0f) return;
     need_range("dt", dt, 1e-6, 1.0);
     tick(world, dt);
   });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -85,11 +86,35 @@ TEST(WorldDef, OlderSmallerStructWorks) {
 }
 
 TEST_F(Host, StepTakesSaneTimesOnly) {
-  for (const float dt : {0.0f, -0.1f, 1.1f, kNan, kInfinity}) {
+  for (const float dt : {-0.1f, 5e-7f, 1.1f, kNan, kInfinity}) {
     expect_refused(PLEAT_ERROR_ARGUMENT, "dt", [&] { return api().world_step(world, dt); });
   }
   EXPECT_EQ(api().world_step(world, 1.0f), pleat_result{PLEAT_OK});
   EXPECT_EQ(api().world_step(world, 1e-6f), pleat_result{PLEAT_OK});
+}
+
+TEST_F(Host, APausedStepDoesNothing) {
+  pleat_stats before{}, after{};
+  before.size = after.size = sizeof before;
+  ASSERT_EQ(api().world_stats(world, &before), pleat_result{PLEAT_OK});
+  EXPECT_EQ(api().world_step(world, 0.0f), pleat_result{PLEAT_OK});
+  ASSERT_EQ(api().world_stats(world, &after), pleat_result{PLEAT_OK});
+  EXPECT_EQ(std::memcmp(&before, &after, sizeof before), 0);
+}
+
+TEST_F(Host, ADefThatIsRefusedIsLoggedWhereItSays) {
+  std::vector<std::string> lines;
+  pleat_world_def def;
+  ASSERT_EQ(api().world_def_init(&def, sizeof def), pleat_result{PLEAT_OK});
+  def.log = [](std::uint32_t, const char* line, void* user) {
+    static_cast<std::vector<std::string>*>(user)->push_back(line);
+  };
+  def.log_user = &lines;
+  def.gravity[0] = kNan;
+  pleat_world* none = nullptr;
+  EXPECT_EQ(api().world_create(&def, &none), pleat_result{PLEAT_ERROR_ARGUMENT});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("world_create: gravity[0]"), std::string::npos) << lines[0];
 }
 
 TEST_F(Host, GravityAndWindAreChecked) {

@@ -1,4 +1,5 @@
 // Cloth that starts stretched, or inside a body.
+#include "systems/largest_stretch.h"
 #include "tests/engine/scene.h"
 
 namespace pleat {
@@ -93,6 +94,32 @@ TEST(Settling, AStartTooNearTheLayerBelowIsNotHeld) {
   EXPECT_GT(length(world.particles.velocity.view()[last]), 0.0f);
 }
 #endif
+
+TEST(Settling, AStateThatIsLoadedInMotionGoesOn) {
+  Scene plays, loads;
+  const pleat_cloth first = plays.cloth(plays.sheet(8)), second = loads.cloth(loads.sheet(8));
+  std::vector<float> pins{-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
+  const auto swing = [&](Scene& scene, pleat_cloth cloth, int tick) {
+    for (std::size_t k = 1; k < pins.size(); k += 3) pins[k] = 0.3f * std::sin(0.15f * static_cast<float>(tick));
+    must(call::cloth_move_pins(scene, cloth, pins.data(), 0, 2));
+    scene.step();
+  };
+  float longest = 0.0f;
+  for (int tick = 0; tick < 40; ++tick) {
+    swing(plays, first, tick);
+    const LargestStretch stretch{.garment = &plays.inside().clothes[0].garment(),
+                                 .position = plays.inside().particles.position.view(),
+                                 .inverse_mass = plays.inside().particles.inverse_mass.data()};
+    longest = stretch.run();
+    if (longest > 0.007f) break;
+  }
+  ASSERT_GT(longest, 0.007f) << "would be held";
+  const std::vector<float> state = plays.particles(first);
+  must(call::cloth_write_particles(loads, second, state.data(), state.data() + 3 * 64, 64));
+  swing(plays, first, 40), swing(loads, second, 40);
+  const std::vector<float> a = plays.particles(first), b = loads.particles(second);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], i < 3 * 64 ? 1e-3f : 0.1f);
+}
 
 }  // namespace
 }  // namespace pleat
