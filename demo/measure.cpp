@@ -59,6 +59,7 @@ RunRecord measure(const pleat_api& api, const SceneDef& def) {
   StageClock clock;
   Scene scene(api, def, StageClock::on_stage, &clock);
   RunRecord record{};
+  record.garment.size = sizeof record.garment;
   scene.check(api.garment_info(scene.world(), scene.garment(), &record.garment), "garment");
   record.cloths = scene.cloths().size();
 

@@ -134,14 +134,25 @@ class HostVectors {
   std::size_t stride_;
 };
 
+/// A caller's struct, maybe an older one, says that it is as large as this. A sizeof is a multiple of the alignment, so
+/// none cuts a field in two. The alignment may only grow where all older sizes are multiples of the new one.
+template <class Struct>
+void need_struct_size(const std::string& name, std::size_t size) {
+  if (size > 0 && size <= sizeof(Struct) && size % alignof(Struct) == 0) return;
+  refuse(name + " is " + std::to_string(size) + ", this library knows multiples of " + std::to_string(alignof(Struct)) +
+         " up to " + std::to_string(sizeof(Struct)) +
+         ": it must be the struct's sizeof, and the library as new as the header");
+}
+template <class Struct>
+void need_sized(const char* name, const Struct* given) {
+  need_pointer(name, given);
+  need_struct_size<Struct>(std::string(name) + ".size", given->size);
+}
+
 /// `defaults` overlaid with what the caller's struct, maybe an older and smaller one, says.
 template <class Def>
 Def read_def(const char* name, const Def* given, const Def& defaults) {
-  need_pointer(name, given);
-  if (given->size < sizeof given->size || given->size > sizeof(Def)) {
-    refuse(std::string(name) + ".size is " + std::to_string(given->size) + ", this library knows up to " +
-           std::to_string(sizeof(Def)) + ": fill it with its init function, and use a library as new as the header");
-  }
+  need_sized(name, given);
   Def def = defaults;
   std::memcpy(static_cast<void*>(&def), given, given->size);
   def.size = sizeof(Def);
@@ -151,8 +162,7 @@ Def read_def(const char* name, const Def* given, const Def& defaults) {
 /// Fills the caller's struct, maybe an older and smaller one, as far as its size reaches.
 template <class Struct>
 void write_sized(const char* name, Struct* given, const Struct& all) {
-  need_pointer(name, given);
-  need_range((std::string(name) + ".size").c_str(), given->size, sizeof given->size, sizeof(Struct));
+  need_sized(name, given);
   const std::uint32_t size = given->size;
   std::memcpy(static_cast<void*>(given), &all, size);
   given->size = size;
@@ -163,7 +173,7 @@ template <class Def>
 pleat_result init_def(const char* call, Def* def, std::size_t size, const Def& defaults) noexcept {
   return guarded(nullptr, call, [&] {
     need_pointer("def", def);
-    need_range("size", static_cast<double>(size), sizeof(std::uint32_t), sizeof(Def));
+    need_struct_size<Def>("size", size);
     std::memcpy(static_cast<void*>(def), &defaults, size);
     def->size = static_cast<std::uint32_t>(size);
   });

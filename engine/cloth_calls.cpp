@@ -189,15 +189,16 @@ pleat_result cloth_info(const pleat_world* handle, pleat_cloth cloth, pleat_clot
   return guarded(as_world(handle), "cloth_info", [&] {
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
-    need_pointer("info", info);
     const Garment& g = record.garment();
     const TessellationPattern* pattern = record.pattern();
-    *info = {.particles = g.particle_count,
-             .triangles = g.face_count,
-             .drawn_vertices = pattern != nullptr ? pattern->shaded_count() : g.particle_count,
-             .drawn_triangles = pattern != nullptr ? pattern->triangle_count : g.face_count,
-             .substeps = record.substeps_taken,
-             .bytes = bytes_of(world, record)};
+    const pleat_cloth_info all{.size = sizeof all,
+                               .particles = g.particle_count,
+                               .triangles = g.face_count,
+                               .drawn_vertices = pattern != nullptr ? pattern->shaded_count() : g.particle_count,
+                               .drawn_triangles = pattern != nullptr ? pattern->triangle_count : g.face_count,
+                               .substeps = record.substeps_taken,
+                               .bytes = bytes_of(world, record)};
+    write_sized("info", info, all);
   });
 }
 

@@ -133,15 +133,17 @@ std::span<const float> need_masses(const float* masses, std::uint32_t vertex_cou
 
 void write_report(const MeshReport& from, pleat_mesh_report* to) {
   if (to == nullptr) return;
-  *to = {.degenerate_triangles = from.degenerate_triangles,
-         .duplicate_triangles = from.duplicate_triangles,
-         .flipped_triangles = from.flipped_triangles,
-         .unreferenced_vertices = from.unreferenced_vertices,
-         .nonmanifold_edges = from.nonmanifold_edges,
-         .nonorientable_edges = from.nonorientable_edges,
-         .nonmanifold_vertices = from.nonmanifold_vertices,
-         .parts = from.parts,
-         .border_loops = from.border_loops};
+  const pleat_mesh_report all{.size = sizeof all,
+                              .degenerate_triangles = from.degenerate_triangles,
+                              .duplicate_triangles = from.duplicate_triangles,
+                              .flipped_triangles = from.flipped_triangles,
+                              .unreferenced_vertices = from.unreferenced_vertices,
+                              .nonmanifold_edges = from.nonmanifold_edges,
+                              .nonorientable_edges = from.nonorientable_edges,
+                              .nonmanifold_vertices = from.nonmanifold_vertices,
+                              .parts = from.parts,
+                              .border_loops = from.border_loops};
+  write_sized("report", to, all);
 }
 
 void log_repairs(const World& world, const MeshReport& r) {
@@ -194,6 +196,7 @@ pleat_result garment_create(pleat_world* handle, const pleat_garment_def* given,
   return guarded(as_world(handle), "garment_create", [&] {
     World& world = need_world(handle);
     need_pointer("garment", garment);
+    if (report != nullptr) need_sized("report", report);
     const pleat_garment_def def = read_def("def", given, default_garment());
     if (def.vertex_count < 3) refuse("vertex_count is " + std::to_string(def.vertex_count) + ", at least 3 are needed");
     if (def.triangle_count == 0) refuse("triangle_count is 0");
@@ -249,14 +252,15 @@ pleat_result garment_destroy(pleat_world* handle, pleat_garment garment) {
 pleat_result garment_info(const pleat_world* handle, pleat_garment garment, pleat_garment_info* info) {
   return guarded(as_world(handle), "garment_info", [&] {
     const Garment& g = need_garment(need_world(handle), garment).garment;
-    need_pointer("info", info);
-    *info = {.particles = g.particle_count,
-             .triangles = g.face_count,
-             .edges = g.edge_count,
-             .border_edges = g.border_edge_count,
-             .hinges = g.hinge_count,
-             .pins = static_cast<uint32_t>(g.pins.size()),
-             .area = g.area};
+    const pleat_garment_info all{.size = sizeof all,
+                                 .particles = g.particle_count,
+                                 .triangles = g.face_count,
+                                 .edges = g.edge_count,
+                                 .border_edges = g.border_edge_count,
+                                 .hinges = g.hinge_count,
+                                 .pins = static_cast<uint32_t>(g.pins.size()),
+                                 .area = g.area};
+    write_sized("info", info, all);
   });
 }
 

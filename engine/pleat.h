@@ -14,7 +14,9 @@
  *  - SI units: metres, seconds, kilograms, radians. Right-handed, y up, counter-clockwise faces.
  *  - Positions are three packed floats; a `stride` is in bytes from one element to the next, 0 meaning tightly packed.
  *  - Every *_def struct must be filled by its *_def_init first: that sets defaults and `size`, so that a host built
- *    against an older, smaller struct keeps working.
+ *    against an older, smaller struct keeps working. Structs that calls fill (settings, infos, reports, statistics)
+ *    begin with a `size` too: the caller sets it to the struct's sizeof, and nothing beyond it is written. A library
+ *    older than the header refuses structs larger than its own, and PLEAT_HAS tells which calls it has.
  *  - Every call returns a pleat_result, in every build. After an error nothing has changed, and a line that names the
  *    field and its value has gone to the world's log. Non-finite input is refused.
  *  - Nothing here is thread-safe for one world; different worlds are independent of each other.
@@ -145,6 +147,7 @@ typedef struct pleat_shape_def {
  * triangle uses, and that is no pin, is at every tick's end where a particle in the middle of the cloth is, wherever it
  * was put. */
 typedef struct pleat_mesh_report {
+  uint32_t size;                  /* set by the caller to sizeof(pleat_mesh_report) */
   uint32_t degenerate_triangles;  /* * zero area or a repeated corner: left out */
   uint32_t duplicate_triangles;   /* * same three corners as another: left out */
   uint32_t flipped_triangles;     /* * winding against its neighbours': turned */
@@ -176,6 +179,7 @@ typedef struct pleat_garment_def {
 } pleat_garment_def;
 
 typedef struct pleat_garment_info {
+  uint32_t size; /* set by the caller to sizeof(pleat_garment_info) */
   uint32_t particles, triangles, edges, border_edges, hinges, pins;
   float area; /* m2 at rest */
 } pleat_garment_info;
@@ -285,6 +289,7 @@ typedef struct pleat_cloth_def {
 } pleat_cloth_def;
 
 typedef struct pleat_cloth_info {
+  uint32_t size; /* set by the caller to sizeof(pleat_cloth_info) */
   uint32_t particles, triangles;
   uint32_t drawn_vertices, drawn_triangles; /* at the cloth's present level */
   uint32_t substeps;                        /* taken in the last tick */
@@ -532,6 +537,11 @@ typedef struct pleat_api {
    * seconds. May be called every frame. */
   pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
 } pleat_api;
+
+/* Whether this library's table reaches as far as that call: PLEAT_HAS(pleat, cloth_bounds). For calls that are newer
+ * than the oldest library of this major version that a host wants to run with; beyond the table's end nothing may be
+ * read. */
+#define PLEAT_HAS(api, call) (offsetof(pleat_api, call) + sizeof((api)->call) <= (api)->size)
 
 #if defined(_WIN32) && defined(PLEAT_BUILD)
 #define PLEAT_EXPORT __declspec(dllexport)

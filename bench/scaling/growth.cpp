@@ -16,7 +16,8 @@ constexpr double kSeconds = 0.5;
 
 double longest_edge(const demo::Scene& scene) {
   const pleat_api& api = scene.api();
-  pleat_garment_info info;
+  pleat_garment_info info{};
+  info.size = sizeof info;
   scene.check(api.garment_info(scene.world(), scene.garment(), &info), "garment");
   std::vector<uint32_t> ends(2 * size_t(info.edges));
   std::vector<float> rest(info.edges), x;

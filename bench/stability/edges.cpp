@@ -5,7 +5,8 @@
 namespace pleat::bench {
 
 Edges::Edges(const pleat_api& api, const Rig& rig) {
-  pleat_garment_info info;
+  pleat_garment_info info{};
+  info.size = sizeof info;
   rig.need(api.garment_info(rig.world(), rig.garment(), &info), "garment");
   ends_.resize(2 * info.edges);
   rest_lengths_.resize(info.edges);

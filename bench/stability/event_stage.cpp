@@ -39,7 +39,8 @@ EventStage::EventStage(const pleat_api& library, const RigDef& def)
   for (const uint32_t pin : def.pins) {
     for (const double x : rig.position(pin)) pins.push_back(float(x));
   }
-  pleat_cloth_info info;
+  pleat_cloth_info info{};
+  info.size = sizeof info;
   rig.need(api.cloth_info(rig.world(), rig.cloth(), &info), "cloth");
   drawn_.resize(size_t{kVertex} * info.drawn_vertices);
   rig.need(api.vertex_target_init(&target_, sizeof target_), "vertex target");

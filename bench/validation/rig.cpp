@@ -48,6 +48,7 @@ void Rig::create(const RigDef& def) {
   garment_def.pins = def.pins.data();
   garment_def.pin_count = uint32_t(def.pins.size());
   garment_def.added_mass = def.added_mass.empty() ? nullptr : def.added_mass.data();
+  report_.size = sizeof report_;
   need(api_.garment_create(world_, &garment_def, &report_, &garment_), "garment");
 
   pleat_cloth_def cloth_def;

@@ -15,7 +15,8 @@ ExactCapsule exact(const CapsulePose& capsule, const Eigen::Vector3d& origin) {
 
 SceneQuality::SceneQuality(const Scene& scene) {
   const pleat_api& api = scene.api();
-  pleat_garment_info info;
+  pleat_garment_info info{};
+  info.size = sizeof info;
   scene.check(api.garment_info(scene.world(), scene.garment(), &info), "garment");
   mesh_.edges.resize(2 * size_t(info.edges));
   mesh_.rest_lengths.resize(info.edges);

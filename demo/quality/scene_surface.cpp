@@ -66,7 +66,8 @@ DrawnSurface drawing(const Scene& scene) {
 
 SurfaceMesh surface_mesh(const pleat_api& api, const SceneDef& def) {
   const Scene rest(api, at_rest(def, PLEAT_SURFACE_FLAT));
-  pleat_garment_info info;
+  pleat_garment_info info{};
+  info.size = sizeof info;
   rest.check(api.garment_info(rest.world(), rest.garment(), &info), "garment");
   SurfaceMesh mesh{};
   std::vector<uint32_t> ends(2 * size_t(info.edges));

@@ -172,7 +172,8 @@ void Scene::step() {
 }
 
 pleat_cloth_info Scene::cloth_info(size_t cloth) const {
-  pleat_cloth_info info;
+  pleat_cloth_info info{};
+  info.size = sizeof info;
   check(api_.cloth_info(world_, cloths_[cloth], &info), "cloth");
   return info;
 }

@@ -82,6 +82,8 @@ static void check_drawn(const pleat_api* pleat, pleat_world* world, pleat_cloth 
   uint32_t i, k;
   double area = 0.0;
 
+  CHECK(PLEAT_HAS(pleat, cloth_info));
+  info.size = sizeof info;
   MUST(pleat->cloth_info(world, cloth, &info));
   vertices = malloc(info.drawn_vertices * sizeof *vertices);
   indices = malloc(info.drawn_triangles * 3 * sizeof *indices);

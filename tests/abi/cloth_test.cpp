@@ -78,9 +78,12 @@ TEST_F(Cloth, StructSizesAreChecked) {
     expect_refused(PLEAT_ERROR_ARGUMENT, "size", [&] { return api().cloth_get(world, cloth, &s); });
   }
   pleat_cloth_def d = def();
-  d.size = sizeof d + 1;
   pleat_cloth out{};
-  expect_refused(PLEAT_ERROR_ARGUMENT, "size", [&] { return api().cloth_create(world, &d, &out); });
+  for (const std::uint32_t size : {13u, 20u, 117u, static_cast<std::uint32_t>(sizeof d) + 1}) {  // most cut a field
+    d.size = size;
+    expect_refused(PLEAT_ERROR_ARGUMENT, "def.size is " + std::to_string(size),
+                   [&] { return api().cloth_create(world, &d, &out); });
+  }
 }
 
 TEST_F(Cloth, OlderSmallerStructsWork) {
@@ -102,9 +105,9 @@ TEST_F(Cloth, OlderSmallerStructsWork) {
   EXPECT_EQ(api().cloth_create(world, &d, &out), pleat_result{PLEAT_OK});
 }
 
-/// A host whose pleat_cloth_settings end after `stretch_limit` hands in the settings of its def, as that was filled.
+/// A host whose pleat_cloth_settings end after `bend_stiffness` hands in the settings of its def, as that was filled.
 TEST_F(Cloth, SettingsOfAnOlderSmallerDefSayHowMuchOfThemItHas) {
-  constexpr std::size_t kOldSettings = offsetof(pleat_cloth_settings, bend_stiffness);
+  constexpr std::size_t kOldSettings = offsetof(pleat_cloth_settings, edge_damping);
   constexpr std::size_t kOldSize = offsetof(pleat_cloth_def, settings) + kOldSettings;
   alignas(pleat_cloth_def) unsigned char memory[sizeof(pleat_cloth_def)];
   std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0xff));  // NaN as a float
@@ -127,11 +130,14 @@ TEST_F(Cloth, SettingsOfAnOlderSmallerDefSayHowMuchOfThemItHas) {
 }
 
 TEST_F(Cloth, ADefWithoutRoomForSettingsHasNoneWritten) {
-  for (const std::size_t less : {0u, 1u, 3u}) {
-    const std::size_t size = offsetof(pleat_cloth_def, settings) + less;
+  for (const std::size_t more : {0u, 1u, 3u, 4u}) {
+    const bool whole = more == 0;  // the others are no struct's size
+    const std::size_t size = offsetof(pleat_cloth_def, settings) + more;
     alignas(pleat_cloth_def) unsigned char memory[sizeof(pleat_cloth_def)];
     std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0xff));
-    ASSERT_EQ(api().cloth_def_init(reinterpret_cast<pleat_cloth_def*>(memory), size), pleat_result{PLEAT_OK});
+    ASSERT_EQ(api().cloth_def_init(reinterpret_cast<pleat_cloth_def*>(memory), size),
+              pleat_result{whole ? PLEAT_OK : PLEAT_ERROR_ARGUMENT});
+    EXPECT_EQ(memory[0] != 0xff, whole);
     EXPECT_TRUE(std::all_of(memory + size, std::end(memory), [](unsigned char byte) { return byte == 0xff; }));
   }
   EXPECT_EQ(def().settings.size, sizeof(pleat_cloth_settings));
@@ -155,6 +161,7 @@ TEST_F(Cloth, CreateChecksItsInput) {
 TEST_F(Cloth, HandlesThatNameNothingAreRefusedEverywhere) {
   pleat_cloth_settings s = settings();
   pleat_cloth_info info{};
+  info.size = sizeof info;
   float buffer[512];
   std::uint32_t indices[2048];
   std::uint16_t indices_16[2048];
@@ -200,6 +207,7 @@ TEST_F(Cloth, PinsAndParticlesAreChecked) {
 
 TEST_F(Cloth, VertexTargetIsChecked) {
   pleat_cloth_info info{};
+  info.size = sizeof info;
   ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
   std::vector<float> buffer(8 * info.drawn_vertices, -9.0f);
   const pleat_vertex_target good = vertex_target(buffer.data(), info.drawn_vertices);
@@ -224,7 +232,9 @@ TEST_F(Cloth, VertexTargetIsChecked) {
   refused(PLEAT_ERROR_ARGUMENT, "target.tangent_offset", bad);
   bad = good, bad.stride = 48, bad.tangent_offset = 32;  // the cloth makes none
   if (api().features & PLEAT_FEATURE_SMOOTHING) refused(PLEAT_ERROR_ARGUMENT, "tangents", bad);
-  bad = good, bad.size = offsetof(pleat_vertex_target, tangent_offset), bad.tangent_offset = 0;  // an older host
+  bad = good, bad.size = offsetof(pleat_vertex_target, tangent_offset);  // no struct's size: it cuts a unit of 8 bytes
+  refused(PLEAT_ERROR_ARGUMENT, "target.size", bad);
+  bad = good, bad.size = offsetof(pleat_vertex_target, position_format), bad.position_format = 99;  // an older host
   EXPECT_EQ(api().cloth_read_vertices(world, cloth, &bad), pleat_result{PLEAT_OK});
   bad = good, bad.normal_offset = 0xfffffff0u;
   refused(PLEAT_ERROR_ARGUMENT, "target.normal_offset", bad);
@@ -243,6 +253,7 @@ TEST_F(Cloth, IndicesStayWithinTheDrawnVerticesAtEachLevel) {
     s.level = level;
     ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
     pleat_cloth_info info{};
+    info.size = sizeof info;
     ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
     if (api().features & PLEAT_FEATURE_SMOOTHING) {
       EXPECT_EQ(info.drawn_triangles, 8 * (level == 0 ? 18 : 4 * level * level));
@@ -260,6 +271,7 @@ TEST_F(Cloth, IndicesStayWithinTheDrawnVerticesAtEachLevel) {
 
 TEST_F(Cloth, SixteenBitIndicesAreTheSameOrRefused) {
   pleat_cloth_info info{};
+  info.size = sizeof info;
   ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
   const std::uint32_t count = 3 * info.drawn_triangles;
   std::vector<std::uint32_t> wide(count);
@@ -329,6 +341,7 @@ TEST_F(Cloth, TangentsAreWrittenWhereAsked) {
   s.tangents = 1;
   ASSERT_EQ(api().cloth_set(world, cloth, &s), pleat_result{PLEAT_OK});
   pleat_cloth_info info{};
+  info.size = sizeof info;
   ASSERT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
   std::vector<float> buffer(12 * info.drawn_vertices);
   pleat_vertex_target target = vertex_target(buffer.data(), info.drawn_vertices);

@@ -32,7 +32,7 @@ TEST_F(ContactReport, MistakesAreRefused) {
   expect_refused(PLEAT_ERROR_ARGUMENT, "report", [&] { return api().cloth_contact_report(world, cloth, nullptr); });
   expect_refused(PLEAT_ERROR_HANDLE, "cloth", [&] { return api().cloth_contact_report(world, {9, 1}, &r); });
   EXPECT_EQ(api().cloth_contact_report(nullptr, cloth, &r), pleat_result{PLEAT_ERROR_ARGUMENT});
-  for (const std::uint32_t size : {0u, 3u, std::uint32_t{sizeof r + 1}}) {
+  for (const std::uint32_t size : {0u, 3u, 44u, std::uint32_t{sizeof r + 1}}) {
     r.size = size;
     expect_refused(PLEAT_ERROR_ARGUMENT, "report.size", [&] { return api().cloth_contact_report(world, cloth, &r); });
   }

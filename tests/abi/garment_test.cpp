@@ -28,10 +28,12 @@ class GarmentDef : public Host {
 TEST_F(GarmentDef, SquareItselfIsTaken) {
   pleat_garment_def def = square.def();
   pleat_mesh_report report{};
+  report.size = sizeof report;
   pleat_garment out{};
   ASSERT_EQ(api().garment_create(world, &def, &report, &out), pleat_result{PLEAT_OK});
   EXPECT_EQ(report.parts, 1u);
   pleat_garment_info info{};
+  info.size = sizeof info;
   ASSERT_EQ(api().garment_info(world, out, &info), pleat_result{PLEAT_OK});
   EXPECT_EQ(info.particles, 9u);
   EXPECT_EQ(info.triangles, 8u);
@@ -55,6 +57,7 @@ TEST_F(GarmentDef, NullsAreRefusedByName) {
 TEST_F(GarmentDef, SizesAndStridesAreChecked) {
   bad("size", [](auto& d) { d.size = 0; });
   bad("size", [](auto& d) { d.size = sizeof d + 1; });
+  bad("def.size", [](auto& d) { d.size = offsetof(pleat_garment_def, positions) + 4; });  // half a pointer
   bad("vertex_count", [](auto& d) { d.vertex_count = 2; });
   bad("triangle_count", [](auto& d) { d.triangle_count = 0; });
   bad("positions's stride", [](auto& d) { d.position_stride = 11; });
@@ -112,6 +115,7 @@ TEST_F(GarmentDef, MeshThatCannotBeClothIsRefusedWithAReport) {
   def.triangles = triangles.data();
   def.triangle_count = 9;
   pleat_mesh_report report{};
+  report.size = sizeof report;
   pleat_garment out{};
   expect_refused(PLEAT_ERROR_MESH, "edge 0-4", [&] { return api().garment_create(world, &def, &report, &out); });
   EXPECT_EQ(report.nonmanifold_edges, 1u);
@@ -125,6 +129,7 @@ TEST_F(GarmentDef, RepairsAreLogged) {
   def.triangles = triangles.data();
   def.triangle_count = 9;
   pleat_mesh_report report{};
+  report.size = sizeof report;
   pleat_garment out{};
   services.log.clear();
   ASSERT_EQ(api().garment_create(world, &def, &report, &out), pleat_result{PLEAT_OK});
@@ -145,12 +150,14 @@ TEST_F(GarmentDef, StridedInputIsReadInPlace) {
   pleat_garment out{};
   ASSERT_EQ(api().garment_create(world, &def, nullptr, &out), pleat_result{PLEAT_OK});
   pleat_garment_info info{};
+  info.size = sizeof info;
   ASSERT_EQ(api().garment_info(world, out, &info), pleat_result{PLEAT_OK});
   EXPECT_FLOAT_EQ(info.area, 1.0f);
 }
 
 TEST_F(GarmentDef, HandlesThatNameNothingAreRefused) {
   pleat_garment_info info{};
+  info.size = sizeof info;
   std::uint32_t indices[64];
   for (const pleat_garment wrong :
        {pleat_garment{0, 0}, pleat_garment{9, 1}, pleat_garment{garment.index, garment.generation + 1}}) {

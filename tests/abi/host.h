@@ -101,6 +101,7 @@ class Host : public testing::Test {
   /// Everything that can be read about the cloth: particles, drawn vertices, settings.
   std::vector<float> state() {
     pleat_cloth_info info{};
+    info.size = sizeof info;
     EXPECT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
     std::vector<float> all(6 * 9 + 8 * info.drawn_vertices);
     EXPECT_EQ(api().cloth_read_particles(world, cloth, all.data(), all.data() + 27, 9), pleat_result{PLEAT_OK});

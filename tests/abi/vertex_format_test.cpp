@@ -33,6 +33,7 @@ class VertexFormat : public Host {
 
   std::uint32_t count() {
     pleat_cloth_info info{};
+    info.size = sizeof info;
     EXPECT_EQ(api().cloth_info(world, cloth, &info), pleat_result{PLEAT_OK});
     return info.drawn_vertices;
   }

@@ -70,8 +70,8 @@ TEST(WorldDef, NullsAreRefused) {
 }
 
 TEST(WorldDef, OlderSmallerStructWorks) {
-  // A host built when pleat_world_def ended after `wind`.
-  constexpr std::size_t kOldSize = offsetof(pleat_world_def, air_density);
+  // A host built when pleat_world_def ended after `air_density`.
+  constexpr std::size_t kOldSize = offsetof(pleat_world_def, max_substep);
   alignas(pleat_world_def) unsigned char memory[sizeof(pleat_world_def)];
   std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0xff));
   auto* def = reinterpret_cast<pleat_world_def*>(memory);

@@ -35,6 +35,7 @@ struct Caller {
     }
     call::world_destroy(world);
     pleat_cloth_info info{};
+    info.size = sizeof info;
     read += call::cloth_info(world, cloth, &info) == pleat_result{PLEAT_OK} && info.particles == 16;
   }
 };

@@ -133,6 +133,7 @@ TEST(Rollback, ATickThatBreaksCostsNoMoreThanThreeLongOnes) {
     for (int i = 0; i < 20; ++i) {
       scene.step(1, 1.0f / 30);
       pleat_cloth_info info{};
+      info.size = sizeof info;
       must(call::cloth_info(scene, cloth, &info));
       most = std::max(most, info.substeps);
     }

@@ -109,6 +109,7 @@ class Scene {
   }
   pleat_cloth_info info(pleat_cloth cloth) {
     pleat_cloth_info info{};
+    info.size = sizeof info;
     must(call::cloth_info(world_, cloth, &info));
     return info;
   }

@@ -109,7 +109,8 @@ class Host {
     def.triangles = t.data(), def.triangle_count = triangles;
     def.pins = pins.data(), def.pin_count = static_cast<std::uint32_t>(pins.size());
     def.added_mass = mass.data();
-    pleat_mesh_report report;
+    pleat_mesh_report report{};
+    report.size = sizeof report;
     pleat_garment made{};
     const pleat_result result = api_.garment_create(world_, &def, &report, &made);
     note(result);
@@ -162,11 +163,13 @@ class Host {
 
   std::uint32_t particles_of(pleat_cloth cloth) {
     pleat_cloth_info info{};
+    info.size = sizeof info;
     return api_.cloth_info(world_, cloth, &info) == PLEAT_OK ? info.particles : 0;
   }
 
   void move_pins() {
     pleat_garment_info info{};
+    info.size = sizeof info;
     note(api_.garment_info(world_, garment_, &info));
     std::vector<float> x(3 * info.pins + 3);
     bytes_.numbers(x.data(), 3 * info.pins, bytes_.scaled(0.5f));
@@ -302,6 +305,7 @@ class Host {
   void look() {
     for (const pleat_cloth cloth : clothes_) {
       pleat_cloth_info info{};
+      info.size = sizeof info;
       note(api_.cloth_info(world_, cloth, &info));
       std::vector<float> x(3 * info.particles), v(3 * info.particles), drawn(6 * info.drawn_vertices);
       note(api_.cloth_read_particles(world_, cloth, x.data(), v.data(), info.particles));
