@@ -1,28 +1,80 @@
 #include "systems/layer_detection.h"
 
+#include <array>
+
+#include "systems/close_pairs.h"
 #include "systems/closeness.h"
-#include "systems/closest_points.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
 namespace {
 
-/// The particles of a pair, the first feature's first; [own, own + own_count) are the cloth's own.
-struct Corners {
-  std::uint32_t particle[4];
-  int own, own_count;
+/// The pairs of one cloth with those below it, for for_each_close_pair.
+struct LayerPairs {
+  const LayerDetection& in;
+
+  /// Of the four corners of a pair, the cloth's own; the others are the other cloth's.
+  static bool is_own(NearKind kind, std::uint32_t k) {
+    return kind == NearKind::kEdges ? k < 2 : (k == 0) == (kind == NearKind::kParticleFace);
+  }
+  std::array<std::uint32_t, 4> corners_of(const NearPair& pair) const {
+    const Garment &own = *in.garment, &other = *in.clothes[pair.cloth].garment;
+    if (pair.kind == NearKind::kEdges) {
+      const auto &a = own.edge_particle, &b = other.edge_particle;
+      return {a[0][pair.first], a[1][pair.first], b[0][pair.second], b[1][pair.second]};
+    }
+    const auto& face = (pair.kind == NearKind::kOtherParticleFace ? own : other).face_particle;
+    return {pair.first, face[0][pair.second], face[1][pair.second], face[2][pair.second]};
+  }
+  PLEAT_KERNEL Vec3Lanes end(const NearPair& pair, std::uint32_t k, const std::uint32_t* index) const {
+    return is_own(pair.kind, k) ? gather(in.position, index) : others(in.clothes[pair.cloth], in.t1, index);
+  }
+  PLEAT_KERNEL Vec3Lanes begin(const NearPair& pair, std::uint32_t k, const std::uint32_t* index) const {
+    return is_own(pair.kind, k) ? gather(in.previous, index) : others(in.clothes[pair.cloth], in.t0, index);
+  }
+
+ private:
+  /// LayerCloth::at, of eight.
+  PLEAT_KERNEL Vec3Lanes others(const LayerCloth& cloth, float t, const std::uint32_t* index) const {
+    const Vec3Lanes from = gather(cloth.begin, index), to = gather(cloth.end, index);
+    return from + (to - from) * all(t) + all(cloth.origin - in.origin);
+  }
 };
 
-Corners corners_of(const NearPair& pair, const Garment& own, const Garment& other) {
-  if (pair.kind == NearKind::kEdges) {
-    const auto &a = own.edge_particle, &b = other.edge_particle;
-    return {{a[0][pair.first], a[1][pair.first], b[0][pair.second], b[1][pair.second]}, 0, 2};
+void add_row(const LayerDetection& in, NearPair& pair, const ContactRowMaker& rows, Stats& stats) {
+  const LayerCloth& other = in.clothes[pair.cloth];
+  if (pair.kind == NearKind::kOtherParticleFace && other.garment->particle_area[pair.first] == 0.0f) return;
+  const std::array<std::uint32_t, 4> corner = LayerPairs{in}.corners_of(pair);
+  const auto is_own = [&](std::uint32_t k) { return LayerPairs::is_own(pair.kind, k); };
+  Vec3 x[4], before[4];
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    x[k] = is_own(k) ? in.position[corner[k]] : other.at(corner[k], in.t1, in.origin);
+    before[k] = is_own(k) ? in.previous[corner[k]] : other.at(corner[k], in.t0, in.origin);
   }
-  const bool own_face = pair.kind == NearKind::kOtherParticleFace;
-  const auto& face = (own_face ? own : other).face_particle;
-  return {{pair.first, face[0][pair.second], face[1][pair.second], face[2][pair.second]},
-          own_face ? 1 : 0,
-          own_face ? 3 : 1};
+  Closeness near;
+  if (!closeness(pair.kind, x, before, pair.side, near) || near.distance > 2.0f * pair.distance) return;
+
+  const float sign = is_own(0) ? 1.0f : -1.0f;  // so that the weights of the own feature sum to 1
+  ContactRow row{.particle = {},
+                 .weight = {},
+                 .normal = near.normal * sign,
+                 .offset = pair.distance,
+                 .body_step = {},
+                 .friction = in.friction,
+                 .share = {},
+                 .count = 0,
+                 .push = 0.0f,
+                 .rubbed = 0.0f};
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    if (is_own(k)) {
+      row.particle[row.count] = corner[k];
+      row.weight[row.count++] = sign * near.weight[k];
+    } else {
+      row.offset -= near.weight[k] * dot(near.normal, x[k]);
+      row.body_step += (x[k] - before[k]) * (-sign * near.weight[k]);
+    }
+  }
+  rows.add(row, stats);
 }
 
 }  // namespace
@@ -34,43 +86,9 @@ bool LayerDetection::validate() const {
 
 void LayerDetection::run(Stats& stats) const {
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
-  for (NearPair* pair = pairs.pairs; pair != pairs.pairs + *pairs.count; ++pair) {
-    const LayerCloth& other = clothes[pair->cloth];
-    if (pair->kind == NearKind::kOtherParticleFace && other.garment->particle_area[pair->first] == 0.0f) continue;
-    const Corners corners = corners_of(*pair, *garment, *other.garment);
-    const auto is_own = [&](int k) { return k >= corners.own && k < corners.own + corners.own_count; };
-    Vec3 x[4], before[4];
-    for (int k = 0; k < 4; ++k) {
-      const std::uint32_t i = corners.particle[k];
-      x[k] = is_own(k) ? position[i] : other.at(i, t1, origin);
-      before[k] = is_own(k) ? previous[i] : other.at(i, t0, origin);
-    }
-    Closeness near;
-    if (!closeness(pair->kind, x, before, pair->side, near)) continue;
-    if (near.distance > 2.0f * pair->distance) continue;
-
-    const float sign = corners.own == 0 ? 1.0f : -1.0f;  // so that the weights of the own feature sum to 1
-    ContactRow row{.particle = {},
-                   .weight = {},
-                   .normal = near.normal * sign,
-                   .offset = pair->distance,
-                   .body_step = {},
-                   .friction = friction,
-                   .share = {},
-                   .count = static_cast<std::uint32_t>(corners.own_count),
-                   .push = 0.0f,
-                   .rubbed = 0.0f};
-    for (int k = 0; k < 4; ++k) {
-      if (is_own(k)) {
-        row.particle[k - corners.own] = corners.particle[k];
-        row.weight[k - corners.own] = sign * near.weight[k];
-      } else {
-        row.offset -= near.weight[k] * dot(near.normal, x[k]);
-        row.body_step += (x[k] - before[k]) * (-sign * near.weight[k]);
-      }
-    }
-    rows.add(row, stats);
-  }
+  run_wide(widest_vectors(), [&] {
+    for_each_close_pair(pairs, LayerPairs{*this}, [&](NearPair& pair) { add_row(*this, pair, rows, stats); });
+  });
 }
 
 }  // namespace pleat
