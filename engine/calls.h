@@ -31,6 +31,11 @@ pleat_result world_keep_budget(pleat_world*, float, float);
 pleat_result world_stats(const pleat_world*, pleat_stats*);
 pleat_result world_explain(pleat_world*, pleat_text_fn, void*);
 
+// state_calls.cpp
+pleat_result world_state_size(const pleat_world*, uint64_t*);
+pleat_result world_save(const pleat_world*, void*, uint64_t);
+pleat_result world_load(pleat_world*, const void*, uint64_t);
+
 // debug_calls.cpp
 pleat_result world_debug_draw(const pleat_world*, uint32_t, pleat_line_fn, void*);
 

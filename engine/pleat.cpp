@@ -60,6 +60,9 @@ constexpr pleat_api kApi = {
     .world_keep_budget = call::world_keep_budget,
     .cloth_set_importance = call::cloth_set_importance,
     .cloth_set_visible = call::cloth_set_visible,
+    .world_state_size = call::world_state_size,
+    .world_save = call::world_save,
+    .world_load = call::world_load,
 };
 
 }  // namespace

@@ -536,6 +536,19 @@ typedef struct pleat_api {
    * where `substeps` is set it keeps those. 1, as at first: its surface is there again at once, its substeps over two
    * seconds. May be called every frame. */
   pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
+  /* For rollback, replays and saved games: all that the bits of the ticks to come depend on, between two ticks. In it:
+   * particles, pins, drawn surfaces, poses of bodies and whether they are enabled, what is due at the next tick, and
+   * what cloths remember: friction's hold, held bending, sides of folds and of contact, sleep, detail, visibility,
+   * importance, the gusts' time. Not in it: garments, settings of cloths and colliders, gravity, wind, gusts, and
+   * pleat_stats. The size changes from tick to tick with contact of cloth with cloth. */
+  pleat_result (*world_state_size)(const pleat_world* world, uint64_t* bytes);
+  /* Refused in callbacks. The same state gives the same bytes, which a host may compare. Allocates nothing. */
+  pleat_result (*world_save)(const pleat_world* world, void* to, uint64_t capacity);
+  /* Into the world that was saved, or one that has the same garments, cloths and colliders, made in the same order,
+   * with the same settings; handles stay. For the same build of the library on the same kind of machine: no file
+   * format. Bytes that do not fit the world, and numbers that no tick leaves behind, are refused and nothing has
+   * changed. */
+  pleat_result (*world_load)(pleat_world* world, const void* from, uint64_t bytes);
 } pleat_api;
 
 /* Whether this library's table reaches as far as that call: PLEAT_HAS(pleat, cloth_bounds). For calls that are newer

@@ -258,6 +258,23 @@ class Host {
     note(api_.cloth_set(world_, cloth, &s));
   }
 
+  void save() {
+    std::uint64_t bytes = 0;
+    note(api_.world_state_size(world_, &bytes));
+    saved_.resize(bytes);
+    note(api_.world_save(world_, saved_.data(), bytes));
+  }
+
+  /// As it was saved, or with some of its bytes changed.
+  void load() {
+    std::vector<char> state = saved_;
+    for (std::uint32_t n = bytes_.below(4); n > 0 && !state.empty(); --n) {
+      const std::size_t high = bytes_.byte(), at = 256 * high + bytes_.byte();
+      state[at % state.size()] = static_cast<char>(bytes_.byte());
+    }
+    note(api_.world_load(world_, state.data(), state.size()));
+  }
+
   void call() {
     switch (bytes_.below(16)) {
       case 0:
@@ -294,7 +311,8 @@ class Host {
         return note(api_.cloth_contact_report(world_, any(clothes_), &report));
       }
       case 12:
-        return note(api_.garment_destroy(world_, garment_));
+        note(api_.garment_destroy(world_, garment_));
+        return bytes_.below(2) == 0 ? save() : load();
       case 13:
         return note(api_.cloth_set_visible(world_, any(clothes_), bytes_.below(2)));
       default:
@@ -336,6 +354,7 @@ class Host {
   pleat_garment garment_{};
   std::vector<pleat_cloth> clothes_;
   std::vector<pleat_collider> bodies_;
+  std::vector<char> saved_;
 };
 
 }  // namespace
