@@ -159,6 +159,67 @@ TEST(State, TheSceneUsesWhatIsSaved) {
   EXPECT_FALSE(w.clothes[1].visible);
 }
 
+TEST(State, WhatWasMovedForTheNextTickStandsStillAfterIt) {
+  Stage stage, fresh;
+  stage.play(0, 20);
+  stage.pose(40);
+  const Bytes state = stage.saved();
+  const auto five_ticks = [](Stage& of) {
+    of.step(5);
+    return of.seen();
+  };
+  const std::vector<float> first = five_ticks(stage);
+  ASSERT_EQ(fresh.load(state), pleat_result{PLEAT_OK});
+  EXPECT_TRUE(same_bits(five_ticks(fresh), first));
+  const MeshCollider &box = fresh.inside().meshes[0].mesh, &mesh = fresh.inside().meshes[1].mesh;
+  EXPECT_EQ(box.previous_pose, box.next_pose);
+  EXPECT_EQ(mesh.previous.y[3], mesh.next.y[3]);
+}
+
+TEST(State, SleepStartsJumpsAndDetailGoOnWhereTheyWere) {
+  Stage stage, other;
+  ClothRecord& cloth = stage.inside().clothes[2];
+  cloth.calm = 0.3f, cloth.settling = 0.1f, cloth.pin_velocity = {1, 2, 3}, cloth.importance = 4.0f;
+  cloth.given_up = 2, cloth.fold_share = 0.25f, cloth.substep_share = 0.75f, stage.inside().pace = 0.5f;
+  ASSERT_EQ(other.load(stage.saved()), pleat_result{PLEAT_OK});
+  const ClothRecord& there = other.inside().clothes[2];
+  EXPECT_EQ(there.calm, 0.3f);
+  EXPECT_EQ(there.settling, 0.1f);
+  EXPECT_EQ(there.pin_velocity, (Vec3{1, 2, 3}));
+  EXPECT_EQ(there.importance, 4.0f);
+  EXPECT_EQ(there.given_up, 2u);
+  EXPECT_EQ(there.fold_share, 0.25f);
+  EXPECT_EQ(there.substep_share, 0.75f);
+  EXPECT_EQ(other.inside().pace, 0.5f);
+  EXPECT_TRUE(other.explain("fold_fade").find("run for") != std::string::npos) << "the plan follows";
+}
+
+TEST(State, ThereIsNoneWithinATick) {
+  struct Caller {
+    pleat_world* world = nullptr;
+    std::uint32_t tried = 0, refused = 0;
+  } caller;
+  pleat_world_def def = Scene::default_def();
+  def.log = [](std::uint32_t, const char*, void*) {};
+  def.stage = [](const char*, int, void* user) {
+    Caller& c = *static_cast<Caller*>(user);
+    if (c.world == nullptr) return;
+    std::uint64_t bytes = 0;
+    char state[8];
+    for (const pleat_result result : {call::world_state_size(c.world, &bytes), call::world_save(c.world, state, 8),
+                                      call::world_load(c.world, state, 8)}) {
+      ++c.tried, c.refused += result == pleat_result{PLEAT_ERROR_ARGUMENT};
+    }
+  };
+  def.stage_user = &caller;
+  Scene scene(def);
+  scene.cloth(scene.sheet(4));
+  caller.world = scene;
+  scene.step();
+  EXPECT_GT(caller.tried, 0u);
+  EXPECT_EQ(caller.refused, caller.tried);
+}
+
 TEST(State, AJumpThatIsDueIsSaved) {
   const float from[3] = {0, 0, 0}, to[3] = {3, 1, 2}, turn[4] = {0, 0.6f, 0, 0.8f};
   Scene scene, other;
