@@ -1,7 +1,6 @@
 // What goes over a state, number by number: to count its bytes, to write them, to check and to read them.
 #pragma once
 
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -14,7 +13,7 @@ namespace pleat {
 struct Range {
   double low, high;
 };
-inline constexpr double kMost = std::numeric_limits<float>::max();
+inline constexpr double kMost = 1e18;  // so that squares of vectors are floats too
 inline constexpr Range kFinite{-kMost, kMost}, kPositive{0.0, kMost}, kShare{0.0, 1.0}, kUnit{-1.01, 1.01},
     kYesOrNo{0.0, 1.0};
 inline constexpr Range kPlace{-16.0 * double{kFarthest}, 16.0 * double{kFarthest}};  // m, after a jump too

@@ -141,7 +141,7 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
     number(io, "contacts", *count, kCount);
   }
   vector(io, "pins' velocity", cloth.pin_velocity, kFinite);
-  number(io, "importance", cloth.importance, kPositive);
+  number(io, "importance", cloth.importance, {0.0, 1e30});
   number(io, "detail", cloth.given_up, {0.0, kMostGivenUp});
   number(io, "detail", cloth.fold_share, kShare);
   number(io, "detail", cloth.substep_share, kShare);

@@ -278,6 +278,18 @@ TEST(State, BytesThatDoNotFitAreRefusedAndNothingChanges) {
   EXPECT_TRUE(same_bits(stage.play(40, 60), twin.play(40, 60)));
 }
 
+TEST(State, NumbersThatNoTickLeavesBehindAreRefused) {
+  Stage stage;
+  float& velocity = stage.inside().particles.velocity.x[20];
+  for (const float bad : {1e30f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    velocity = bad;
+    const Bytes state = stage.saved();
+    velocity = 0.0f;
+    EXPECT_EQ(stage.load(state), pleat_result{PLEAT_ERROR_ARGUMENT});
+    EXPECT_EQ(velocity, 0.0f);
+  }
+}
+
 TEST(State, AnotherWorldIsToldFromThisOneByName) {
   std::vector<std::string> lines;
   pleat_world_def def = Scene::default_def();
