@@ -67,7 +67,8 @@ pleat_result cloth_contact_report(const pleat_world* handle, pleat_cloth cloth, 
   return guarded(as_world(handle), "cloth_contact_report", [&] {
     const World& world = need_world(handle);
     const ClothRecord& record = need_cloth(world, cloth);
-    need_sized("report", report);  // before the work
+    if (world.busy) refuse("the world is busy: ask when its tick is over");  // it takes a worker's scratch
+    need_sized("report", report);                                            // before the work
     pleat_contact_report all{};
     all.particle_contacts = record.contacts.particle;
     all.face_contacts = record.contacts.face;

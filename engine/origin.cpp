@@ -15,16 +15,21 @@ void shift(const Vec3View& points, std::size_t count, const Vec3& by) {
 
 }  // namespace
 
+Vec3 whole_cells(const Vec3& a) { return {whole_cells(a.x), whole_cells(a.y), whole_cells(a.z)}; }
+
 void recentre(World& world, ClothRecord& cloth) {
   const std::size_t particles = cloth.garment().particle_count, pins = cloth.garment().pins.size();
-  const Vec3 place =
-      pins != 0 ? world.pin_next.view()[cloth.pin_begin] : Vec3(world.particles.position.view()[cloth.particle_begin]);
-  const Vec3 by{whole_cells(place.x), whole_cells(place.y), whole_cells(place.z)};
+  const bool held = pins != 0 && cloth.garment().particle_area[cloth.garment().pins[0]] > 0.0f;
+  const ConstVec3View position = world.particles.position.view().from(cloth.particle_begin);
+  const Vec3 by = whole_cells(held ? Vec3(world.pin_next.view()[cloth.pin_begin]) : position[cloth.garment().stray_on]);
   if (by == Vec3{}) return;
   cloth.origin += by;
   for (Vec3Column* column : {&world.particles.position, &world.self.sought_at, &world.layers.sought_at}) {
     if (column->size() >= cloth.particle_begin + particles)
       shift(column->view().from(cloth.particle_begin), particles, by);
+  }
+  if (cloth.pattern() != nullptr && world.drawn.position.size() != 0) {  // of a cloth that sleeps on, not drawn anew
+    shift(world.drawn.position.view().from(cloth.drawn_begin), cloth.pattern()->vertex_count, by);
   }
   for (Vec3Column* column : {&world.pin_previous, &world.pin_next}) {
     shift(column->view().from(cloth.pin_begin), pins, by);

@@ -8,8 +8,12 @@
 
 namespace pleat {
 
+/// What of a way or a place is whole cells of 8 m; 0 up to one.
+Vec3 whole_cells(const Vec3& a);
+
 /// Moves the cloth's origin to where the cloth is, if it is more than 8 m away from it: by whole multiples of 8 m, so
-/// that no position loses a digit. Follows the first pin's next place or, where there are none, the first particle.
+/// that no position loses a digit. Follows the first pin's next place or, where none holds
+/// the cloth, a particle in its middle.
 void recentre(World& world, ClothRecord& cloth);
 
 }  // namespace pleat

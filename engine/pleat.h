@@ -76,7 +76,8 @@ typedef struct pleat_collider {
 /* ---- host services --------------------------------------------------------------------------------------------- */
 
 /* A world calls its host back during world_step, from the threads that run tasks, and during the calls that draw or
- * list. From there only calls of it may be made that take a const world; others are refused. */
+ * list. From there only calls of it may be made that take a const world, but for
+ * contact reports and states; others are refused. */
 
 typedef void* (*pleat_allocate_fn)(size_t bytes, size_t alignment, void* user);
 typedef void (*pleat_free_fn)(void* memory, size_t bytes, size_t alignment, void* user);
@@ -545,9 +546,9 @@ typedef struct pleat_api {
   /* Refused in callbacks. The same state gives the same bytes, which a host may compare. Allocates nothing. */
   pleat_result (*world_save)(const pleat_world* world, void* to, uint64_t capacity);
   /* Into the world that was saved, or one that has the same garments, cloths and colliders, made in the same order,
-   * with the same settings; handles stay. For the same build of the library on the same kind of machine: no file
-   * format. Bytes that do not fit the world, and numbers that no tick leaves behind, are refused and nothing has
-   * changed. */
+   * with the same settings, mesh bodies in the same poses; handles stay. For the same build of the library on the same
+   * kind of machine: no file format. Bytes that do not fit the world, and numbers that no tick leaves behind, are
+   * refused and nothing has changed. */
   pleat_result (*world_load)(pleat_world* world, const void* from, uint64_t bytes);
 } pleat_api;
 

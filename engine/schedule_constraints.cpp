@@ -340,7 +340,8 @@ constexpr Row kRows[] = {
        run(FiniteGuard{.particle_count = t.garment.particle_count,
                        .previous = t.previous,
                        .position = t.position,
-                       .velocity = t.velocity},
+                       .velocity = t.velocity,
+                       .origin = t.cloth.origin},
            t.worker.stats);
        t.trouble = t.trouble || t.worker.stats.nonfinite_restored != before;
      }},

@@ -151,7 +151,7 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
   bool jumps = cloth.declared_jump.has_value();
   if (flag(io, "jump", jumps)) {
     RigidMotion jump = cloth.declared_jump.value_or(RigidMotion{});
-    vector(io, "jump", jump.from, kFinite), vector(io, "jump", jump.to, kFinite), rotation(io, "jump", jump.rotation);
+    vector(io, "jump", jump.from, kPlace), vector(io, "jump", jump.to, kPlace), rotation(io, "jump", jump.rotation);
     if constexpr (!std::is_const_v<Cloth>) cloth.declared_jump = jump;
   } else if constexpr (!std::is_const_v<Cloth>) {
     cloth.declared_jump.reset();

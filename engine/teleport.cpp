@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/layers.h"
+#include "engine/origin.h"
 #include "engine/schedule_row.h"
 #include "engine/sleep.h"
 #include "systems/pin_jump.h"
@@ -25,18 +26,21 @@ void carry_bodies([[maybe_unused]] World& world, [[maybe_unused]] const RigidMot
 /// jump: from the cloth's origin, as its positions.
 void carry(ClothTick& t, const RigidMotion& jump) {
   World& world = t.world;
+  const Vec3 far = whole_cells(jump.to - jump.from);  // which the origin goes, so that no position is ever far from it
+  const RigidMotion near{jump.from, jump.to - far, jump.rotation};
   RigidCarry cloth{
-      .motion = jump, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
+      .motion = near, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
   if (world.held.size() != 0) cloth.held = world.held.view().from(t.cloth.particle_begin);
   run(cloth);
   const Vec3View previous = world.pin_previous.view().from(t.cloth.pin_begin),
                  next = world.pin_next.view().from(t.cloth.pin_begin);
   for (std::size_t k = 0; k < t.garment.pins.size(); ++k) {
     const bool moved = !(next[k] == previous[k]);
-    previous.set(k, jump.apply(previous[k]));
-    if (!moved) next.set(k, previous[k]);
+    previous.set(k, near.apply(previous[k]));
+    next.set(k, moved ? next[k] - far : previous[k]);
   }
   carry_bodies(world, jump.moved(t.cloth.origin));
+  t.cloth.origin += far;
   t.cloth.bending_left = 0.0f;
   wake(t.cloth);
   t.cloth.self_pair_count = kNone;

@@ -254,6 +254,9 @@ void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& set
   if (settings.layer != old.layer) forget_layer_pairs(world, cloth);
   if (settings.thickness != old.thickness) cloth.layer_pair_count = kNone;
   if (settings.surface != old.surface) cloth.sides_known = false;
+  if (settings.inner_friction == 0.0f && world.held.size() != 0) {
+    clear(world.held.view().from(cloth.particle_begin), cloth.garment().particle_count);
+  }
   if (settings.stiffness != old.stiffness || settings.bend_stiffness != old.bend_stiffness) {
     cloth.lowered = Notice::kNothing;
   }

@@ -26,8 +26,10 @@ bool FiniteGuard::validate() const { return previous.x != nullptr && position.x 
 
 void FiniteGuard::run(Stats& stats) const {
   run_wide(widest_vectors(), [&] {
+    const Vec3Lanes from = all(origin);
     for (std::size_t begin = 0; begin < particle_count; begin += kLanes) {
-      const std::uint32_t good = good_ones(load(ConstVec3View(position), begin), load(ConstVec3View(velocity), begin));
+      const std::uint32_t good =
+          good_ones(load(ConstVec3View(position), begin) + from, load(ConstVec3View(velocity), begin));
       if (good == 0xff) continue;
       for (std::size_t i = begin; i < std::min(begin + kLanes, particle_count); ++i) {
         if ((good >> (i - begin) & 1) != 0) continue;

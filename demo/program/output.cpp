@@ -22,6 +22,12 @@ constexpr const char* kListHead = "Written by `pleat run`, which replaces these 
 
 std::string part_name(const std::string& name) { return "." + name + ".part" + std::to_string(getpid()); }
 
+/// What is open already, as /dev/stdout: to be written to as it is, wherever it leads.
+bool is_open(const fs::path& path) {
+  const std::string folder = fs::absolute(path).lexically_normal().parent_path().string();
+  return folder == "/dev" || folder.starts_with("/dev/fd") || folder.starts_with("/proc");
+}
+
 /// The file that a link ends at, be it there or not.
 fs::path follow(fs::path path) {
   constexpr int kMostLinks = 40;  // as Linux has it
@@ -55,7 +61,7 @@ std::set<std::string> listed(const fs::path& folder) {
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   if (path_.filename().empty() || fs::is_directory(path_)) throw InputError(path_.string(), "is a folder, not a file");
   bool writable = false;
-  if (fs::exists(path_) && !fs::is_regular_file(path_)) {
+  if (fs::exists(path_) && (!fs::is_regular_file(path_) || is_open(path_))) {
     writable = access(path_.c_str(), W_OK) == 0;  // opening a pipe would wait for its reader
   } else {
     path_ = follow(path_);
@@ -71,7 +77,8 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit(const std::string& bytes) {
-  std::ofstream stream(part_.empty() ? path_ : part_, std::ios::binary | std::ios::trunc);
+  const bool in_place = part_.empty();
+  std::ofstream stream(in_place ? path_ : part_, std::ios::binary | (in_place ? std::ios::app : std::ios::trunc));
   stream << bytes;
   stream.close();
   if (!stream) throw std::runtime_error(path_.string() + ": cannot be written: is the disk full?");
@@ -84,6 +91,7 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(fs::absolute(std::move(fol
   for (fs::path at = folder_; !fs::exists(at) && at.has_relative_path(); at = at.parent_path()) made_ = at;
   part_ = folder_ / part_name("pleat");
   std::error_code error;
+  fs::remove_all(part_, error);  // of a run that was ended, with the same number
   fs::create_directories(part_, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
 }

@@ -1,4 +1,6 @@
 // Cloth far from the world's origin moves as it does there.
+#include "engine/origin.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -167,6 +169,43 @@ TEST(Origin, AJumpOfAKilometreIsCarriedAndThenSeenFromThere) {
     ASSERT_LT(farthest_apart(stays.state(stays.lower), jumps.state(jumps.lower)), 1e-3f) << "tick " << tick;
     ASSERT_LT(farthest_apart(stays.state(stays.upper), jumps.state(jumps.upper)), 1e-3f) << "tick " << tick;
   }
+}
+
+TEST(Origin, DrawnVerticesComeAlongWhereNothingIsDrawnAnew) {
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(5));
+  scene.step(20);
+  const std::vector<float> before = scene.vertices(cloth), state = scene.particles(cloth);
+  World& world = scene.inside();
+  for (Vec3Column* column : {&world.particles.position, &world.drawn.position, &world.pin_previous, &world.pin_next}) {
+    for (float& x : column->x) x += 24.0f;
+  }
+  recentre(world, world.clothes[0]);
+  EXPECT_EQ(world.clothes[0].origin, (Vec3{24, 0, 0}));
+  const std::vector<float> after = scene.vertices(cloth), moved = scene.particles(cloth);
+  for (std::size_t v = 0; v < before.size(); v += 8) ASSERT_NEAR(after[v], before[v] + 24.0f, 1e-5f);
+  for (std::size_t i = 0; i < state.size() / 2; i += 3) ASSERT_NEAR(moved[i], state[i] + 24.0f, 1e-5f);
+}
+
+TEST(Origin, TheWorldEndsWhereTheBorderSays) {
+  Scene scene;
+  pleat_garment_def garment_def;
+  must(call::garment_def_init(&garment_def, sizeof garment_def));
+  const float x[] = {0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f};
+  const std::uint32_t triangle[] = {0, 1, 2};
+  garment_def.positions = x, garment_def.vertex_count = 3, garment_def.triangles = triangle;
+  garment_def.triangle_count = 1;
+  pleat_cloth_def def;
+  must(call::cloth_def_init(&def, sizeof def));
+  must(call::garment_create(scene, &garment_def, nullptr, &def.garment));
+  const float low[] = {0, -999990, 0, 0.5f, -999990, 0, 0, -999990, 0.5f};
+  def.positions = low;
+  pleat_cloth cloth{};
+  must(call::cloth_create(scene, &def, &cloth));
+  scene.step(300);  // it would fall by 100 m
+  const std::vector<float> state = scene.particles(cloth);
+  EXPECT_LT(state[1], -999995.0f);
+  must(call::cloth_write_particles(scene, cloth, state.data(), state.data() + 9, 3));  // still taken
 }
 
 TEST(Origin, FarAwayItComesToRestAndSleeps) {
