@@ -41,6 +41,8 @@ ClothTick Moment::reach() {
   const auto substeps = static_cast<float>(watch_.substeps), after = static_cast<float>(watch_.substep);
   std::memcpy(skirt_.arena().used().data(), watch_.memory.data(), watch_.memory.size());
   World& world = skirt_.world();
+  world.busy = false;  // what was kept is from within a tick
+  watch_.memory.assign(watch_.arena->used().begin(), watch_.arena->used().end());
   ClothTick t(world, world.workers[0], world.clothes[0]);
   t.frame_dt = KickingSkirt::kTick;
   if (watch_.substep == 0) return t;
