@@ -17,7 +17,8 @@ inline constexpr double kMost = 1e18;  // so that squares of vectors are floats 
 inline constexpr Range kFinite{-kMost, kMost}, kPositive{0.0, kMost}, kShare{0.0, 1.0}, kUnit{-1.01, 1.01},
     kYesOrNo{0.0, 1.0};
 inline constexpr Range kPlace{-16.0 * double{kFarthest}, 16.0 * double{kFarthest}};  // m, after a jump too
-inline constexpr Range kTime{0.0, 1e12};                                             // s
+inline constexpr Range kNormal{-1.00001, 1.00001};  // of a unit vector, as 16 bits hold it too
+inline constexpr Range kTime{0.0, 1e12};            // s
 inline constexpr Range kCount{0.0, 9e18};
 
 /// How many bytes there are.

@@ -103,10 +103,10 @@ void visit_surface(W& world, Io& io, Cloth& cloth) {
   }
   const std::size_t shaded = pattern->shaded_count();
   vectors(io, "drawn positions", world.drawn.position.view().from(cloth.drawn_begin), pattern->vertex_count, kPlace);
-  vectors(io, "drawn normals", world.drawn.normal.view().from(cloth.drawn_begin), shaded, kFinite);
+  vectors(io, "drawn normals", world.drawn.normal.view().from(cloth.drawn_begin), shaded, kNormal);
   if (s.tangents == 0) return;
-  vectors(io, "tangents", world.drawn.tangent.view().from(cloth.drawn_begin), shaded, kFinite);
-  io.array("tangents", world.drawn.handedness.data() + cloth.drawn_begin, shaded, kUnit);
+  vectors(io, "tangents", world.drawn.tangent.view().from(cloth.drawn_begin), shaded, kNormal);
+  io.array("tangents", world.drawn.handedness.data() + cloth.drawn_begin, shaded, kNormal);
 }
 
 template <class W, class Io, class Cloth>
