@@ -24,9 +24,9 @@ void recentre(World& world, ClothRecord& cloth) {
   const Vec3 by = whole_cells(held ? Vec3(world.pin_next.view()[cloth.pin_begin]) : position[cloth.garment().stray_on]);
   if (by == Vec3{}) return;
   cloth.origin += by;
-  for (Vec3Column* column : {&world.particles.position, &world.self.sought_at, &world.layers.sought_at}) {
-    if (column->size() >= cloth.particle_begin + particles)
-      shift(column->view().from(cloth.particle_begin), particles, by);
+  for (Vec3Column* column : {&world.particles.position, &world.self.sought_at}) {  // layers seek anew in each tick
+    if (column->size() < cloth.particle_begin + particles) continue;
+    shift(column->view().from(cloth.particle_begin), particles, by);
   }
   if (cloth.pattern() != nullptr && world.drawn.position.size() != 0) {  // of a cloth that sleeps on, not drawn anew
     shift(world.drawn.position.view().from(cloth.drawn_begin), cloth.pattern()->vertex_count, by);

@@ -12,8 +12,8 @@ namespace pleat {
 Vec3 whole_cells(const Vec3& a);
 
 /// Moves the cloth's origin to where the cloth is, if it is more than 8 m away from it: by whole multiples of 8 m, so
-/// that no position loses a digit. Follows the first pin's next place or, where none holds
-/// the cloth, a particle in its middle.
+/// that no position loses a digit. Follows the first pin's next place or, where that holds
+/// no cloth, a particle in the middle.
 void recentre(World& world, ClothRecord& cloth);
 
 }  // namespace pleat

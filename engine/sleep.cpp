@@ -1,7 +1,5 @@
 #include "engine/sleep.h"
 
-#include <algorithm>
-
 #include "engine/schedule_row.h"
 #include "systems/disturbance.h"
 
