@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "components/column.h"
+#include "components/lanes.h"
 
 namespace pleat {
 
@@ -66,14 +66,14 @@ struct LayerColumns {
 
 /// What a grid of up to so many points takes, see PointGrid.
 struct GridScratch {
-  Column<std::uint32_t> begin, filed;
-  Vec3Column point;
+  Column<std::uint32_t> begin, filed, near;
+  Column<Vec4> point;
 
-  explicit GridScratch(std::pmr::memory_resource* m) : begin(m), filed(m), point(m) {}
+  explicit GridScratch(std::pmr::memory_resource* m) : begin(m), filed(m), near(m), point(m) {}
   bool holds(std::size_t points) const { return point.size() >= points; }
   void make_room(std::size_t points) {
     if (holds(points)) return;
-    begin.resize(2 * points + 2), filed.resize(points), point.resize(points);
+    begin.resize(2 * points + 2), filed.resize(points), near.resize(points + kLanes), point.resize(points);
   }
 };
 
@@ -82,9 +82,18 @@ struct GridScratch {
 struct NearScratch {
   Column<NearPair> pairs;
   Vec3Column middle, pose;
+  Column<Vec4> half;  // of edges as the grid files them: from the middle to an end, m; and 1 / its length squared, 1/m2
   GridScratch grid;
 
-  explicit NearScratch(std::pmr::memory_resource* m) : pairs(m), middle(m), pose(m), grid(m) {}
+  explicit NearScratch(std::pmr::memory_resource* m) : pairs(m), middle(m), pose(m), half(m), grid(m) {}
+  bool holds(std::size_t particles, std::size_t edges) const {
+    return middle.size() >= edges && half.size() >= edges && pose.size() >= particles &&
+           grid.holds(std::max(particles, edges));
+  }
+  void make_room(std::size_t particles, std::size_t edges) {
+    at_least(middle, edges), at_least(half, edges), at_least(pose, particles);
+    grid.make_room(std::max(particles, edges));
+  }
 };
 
 }  // namespace pleat

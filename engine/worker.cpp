@@ -43,9 +43,7 @@ void make_cloth_contact_room(Worker& worker, const ClothRecord& cloth) {
   }
   NearScratch& scratch = worker.near_scratch;
   at_least(scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
-  at_least(scratch.middle, g.edge_count);
-  if (cloth.settings.layer > 0) at_least(scratch.pose, g.particle_count);
-  scratch.grid.make_room(NearSearch::most_points(g));
+  scratch.make_room(g.particle_count, g.edge_count);
 }
 
 void make_body_contact_room(Worker& worker, const World& world, const ClothRecord& cloth) {

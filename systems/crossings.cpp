@@ -43,7 +43,7 @@ std::size_t Crossings::run() const {
       x[k] = faces.position[corner[k]] + apart;
       box.include(x[k]);
     }
-    grid.for_each_near(box.grown(longest), [&](std::uint32_t e, const Vec3&) {
+    grid.for_each_near(box.grown(longest), [&](std::uint32_t e) {
       const std::uint32_t i = end[0][e], j = end[1][e];
       const auto is_end = [&](std::uint32_t particle) { return particle == i || particle == j; };
       if (itself && std::any_of(corner, corner + 3, is_end)) return;

@@ -66,7 +66,7 @@ bool LayerCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && layer > 0 && distance >= 0.0f &&
          t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && t_sought != nullptr &&
          around != nullptr && scratch != nullptr && scratch->pairs.size() >= pairs.capacity &&
-         scratch->grid.holds(NearSearch::most_points(*garment));
+         scratch->holds(garment->particle_count, garment->edge_count);
 }
 
 void LayerCandidates::run(Stats& stats) const {

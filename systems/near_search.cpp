@@ -16,18 +16,23 @@ float mean_edge(const Garment& first, const Garment& second) {
   return std::max(first.mean_edge_length, second.mean_edge_length);
 }
 
-void add(const NearSearch& in, NearPair pair, float rest_distance, Stats& stats) {
+/// rest_distance(): between the two, of one cloth.
+template <class RestDistance>
+void add(const NearSearch& in, NearPair pair, const RestDistance& rest_distance, Stats& stats) {
   if (*in.pairs.count == in.pairs.capacity) {
     ++stats.contacts_dropped;
     return;
   }
-  pair.distance = in.itself ? std::min(in.distance, kRestShare * rest_distance) : in.distance;
   const auto of_the_same = [&](const NearPair* p) {
     return p != in.memory->end && p->cloth == pair.cloth && p->kind == pair.kind && p->second == pair.second;
   };
   const NearPair* before = in.memory->next;
   while (of_the_same(before) && before->first != pair.first) ++before;
-  if (of_the_same(before)) pair.side = before->side;
+  if (of_the_same(before)) {
+    pair.side = before->side, pair.distance = before->distance;
+  } else {
+    pair.distance = in.itself ? std::min(in.distance, kRestShare * rest_distance()) : in.distance;
+  }
   in.pairs.pairs[(*in.pairs.count)++] = pair;
 }
 
@@ -39,27 +44,40 @@ void remember(const NearSearch& in, NearKind kind, std::uint32_t second) {
   while (in.memory->next != in.memory->end && earlier(*in.memory->next)) ++in.memory->next;
 }
 
-/// The space over and under a face.
-struct Prism {
+struct Face {
   std::uint32_t corner[3];
-  Vec3 x[3], normal, outward[3];
-  Box box;
+  Vec3 x[3];
 
-  Prism(const PosedCloth& cloth, std::uint32_t face) {
+  Face(const PosedCloth& cloth, std::uint32_t face) {
     for (int k = 0; k < 3; ++k) {
       corner[k] = cloth.garment->face_particle[k][face];
       x[k] = cloth.position[corner[k]];
-      box.include(x[k]);
     }
-    normal = normalized_or(cross(x[1] - x[0], x[2] - x[0]), Vec3{});
-    for (int k = 0; k < 3; ++k) outward[k] = normalized_or(cross(x[(k + 1) % 3] - x[k], normal), Vec3{});
   }
   bool has_corner(std::uint32_t particle) const {
     return particle == corner[0] || particle == corner[1] || particle == corner[2];
   }
-  bool holds(const Vec3& p, float high, float wide) const {
-    return std::abs(dot(p - x[0], normal)) <= high && dot(p - x[0], outward[0]) <= wide &&
-           dot(p - x[1], outward[1]) <= wide && dot(p - x[2], outward[2]) <= wide;
+  Box box() const {
+    Box box;
+    for (const Vec3& corner_at : x) box.include(corner_at);
+    return box;
+  }
+};
+
+/// The space over and under a face.
+struct Prism {
+  const Face& face;
+  Vec3 normal, outward[3];
+
+  explicit Prism(const Face& f) : face(f) {
+    const Vec3(&x)[3] = face.x;
+    normal = normalized_or(cross(x[1] - x[0], x[2] - x[0]), Vec3{});
+    for (int k = 0; k < 3; ++k) outward[k] = normalized_or(cross(x[(k + 1) % 3] - x[k], normal), Vec3{});
+  }
+  PLEAT_KERNEL LaneMask holds(const Vec3Lanes& p, float high, float wide) const {
+    LaneMask inside = abs(dot(p - all(face.x[0]), all(normal))) <= high;
+    for (int k = 0; k < 3; ++k) inside &= dot(p - all(face.x[k]), all(outward[k])) <= wide;
+    return inside;
   }
 };
 
@@ -77,8 +95,32 @@ struct Edge {
     return end[0] == other.end[0] || end[0] == other.end[1] || end[1] == other.end[0] || end[1] == other.end[1];
   }
   Vec3 middle() const { return (x[0] + x[1]) * 0.5f; }
-  float half_length() const { return 0.5f * length(x[1] - x[0]); }
+  /// From the middle to an end, and 1 / its length squared.
+  Vec4 half() const {
+    const Vec3 half = (x[1] - x[0]) * 0.5f;
+    return {half.x, half.y, half.z, 1.0f / std::max(dot(half, half), 1e-30f)};
+  }
+  Box box() const {
+    Box box;
+    box.include(x[0]), box.include(x[1]);
+    return box;
+  }
 };
+
+/// Between an edge and eight others, each with its middle and half: squared, m2. As closest_between_segments does it,
+/// but in single precision, where parallel ones may come out farther apart by a thousandth of their lengths at most,
+/// and next to nothing where they are not nearly in touch.
+PLEAT_KERNEL Lanes distance2_between(const Vec3Lanes& middle, const Vec4Lanes& half, const Vec3& other_middle,
+                                     const Vec4& other_half) {
+  const auto on_edge = [](const Lanes& t) PLEAT_KERNEL_LAMBDA { return min(max(t, all(-1.0f)), all(1.0f)); };
+  const Vec3Lanes r = middle - all(other_middle), g = half.vector, h = all(vector_of(other_half));
+  const Lanes a = dot(g, g), b = dot(g, h), c = dot(g, r), e = dot(h, h), f = dot(h, r);
+  Lanes s = on_edge((b * f - c * e) / max(a * e - b * b, all(1e-30f)));
+  const Lanes t = on_edge((b * s + f) * other_half.w);
+  s = on_edge((b * t - c) * half.w);
+  const Vec3Lanes apart = r + g * s - h * t;
+  return dot(apart, apart);
+}
 
 float distance_between(const Vec3 (&p)[2], const Vec3 (&q)[2]) {
   const SegmentPair at = closest_between_segments(p[0], p[1], q[0], q[1]);
@@ -122,13 +164,9 @@ float file_middles(const PosedCloth& cloth, NearScratch& scratch) {
   for (std::uint32_t e = 0; e < cloth.garment->edge_count; ++e) {
     const Edge edge(cloth, e);
     middles.set(e, edge.middle());
-    longest = std::max(longest, edge.half_length());
+    longest = std::max(longest, 0.5f * length(edge.x[1] - edge.x[0]));
   }
   return longest;
-}
-
-std::size_t NearSearch::most_points(const Garment& garment) {
-  return std::max(garment.particle_count, garment.edge_count);
 }
 
 void NearSearch::find_particle_face(NearKind kind, Stats& stats) const {
@@ -136,34 +174,56 @@ void NearSearch::find_particle_face(NearKind kind, Stats& stats) const {
   const float wide = kOverlapShare * mean_edge(*first.garment, g) + near_margin(*first.garment, g);
   const float around = std::max(reach, wide);
   const PointGrid grid(first.position, first.garment->particle_count, g.mean_edge_length + around, scratch->grid);
-  for (std::uint32_t f = 0; f < g.face_count; ++f) {
-    const Prism prism(second, f);
-    remember(*this, kind, f);
-    grid.for_each_near(prism.box.grown(around), [&](std::uint32_t p, const Vec3& x) {
-      if ((itself && prism.has_corner(p)) || !prism.holds(x, reach, wide)) return;
-      add(*this, {kind, p, f, cloth, 0.0f, 0.0f}, itself ? rest_distance_to_face(g, p, f) : 0.0f, stats);
-    });
-  }
+  run_wide(widest_vectors(), [&] {
+    for (std::uint32_t f = 0; f < g.face_count; ++f) {
+      const Face face(second, f);
+      const PointGrid::Places near = grid.near(face.box().grown(around));
+      if (near.count == 0) continue;
+      const Prism prism(face);
+      remember(*this, kind, f);
+      near.for_each_of(
+          [&](const std::uint32_t* place)
+              PLEAT_KERNEL_LAMBDA { return bits(prism.holds(gather(grid.points(), place).vector, reach, wide)); },
+          [&](std::uint32_t place) {
+            const std::uint32_t p = grid.filed(place);
+            if (itself && face.has_corner(p)) return;
+            add(
+                *this, {kind, p, f, cloth, 0.0f, 0.0f}, [&] { return rest_distance_to_face(g, p, f); }, stats);
+          });
+    }
+  });
 }
 
 void NearSearch::find_edges(Stats& stats) const {
   const float longest = file_middles(first, *scratch);  // half of it
   const PointGrid grid(scratch->middle.view(), first.garment->edge_count, longest + reach, scratch->grid);
-  for (std::uint32_t e = 0; e < second.garment->edge_count; ++e) {
-    const Edge edge(second, e);
-    remember(*this, NearKind::kEdges, e);
-    const Vec3 middle = edge.middle();
-    const float around = longest + reach + edge.half_length();
-    grid.for_each_near(Box{middle, middle}.grown(around), [&](std::uint32_t o, const Vec3& x) {
-      if (itself && o >= e) return;
-      const Vec3 between = x - middle;
-      if (dot(between, between) > around * around) return;
-      const Edge other(first, o);
-      if ((itself && other.shares_end(edge)) || distance_between(other.x, edge.x) > reach) return;
-      add(*this, {NearKind::kEdges, o, e, cloth, 0.0f, 0.0f},
-          itself ? rest_distance_between(*first.garment, other, edge) : 0.0f, stats);
-    });
+  for (std::uint32_t place = 0; place < first.garment->edge_count; ++place) {
+    scratch->half[place] = Edge(first, grid.filed(place)).half();
   }
+  run_wide(widest_vectors(), [&] {
+    for (std::uint32_t e = 0; e < second.garment->edge_count; ++e) {
+      const Edge edge(second, e);
+      const PointGrid::Places near = grid.near(edge.box().grown(longest + reach), itself ? e : kNone);
+      if (near.count == 0) continue;
+      const Vec3 middle = edge.middle();
+      const Vec4 half = edge.half();
+      remember(*this, NearKind::kEdges, e);
+      near.for_each_of(
+          [&](const std::uint32_t* place) PLEAT_KERNEL_LAMBDA {
+            const Vec3Lanes middles = gather(grid.points(), place).vector;
+            const Vec4Lanes halves = gather(scratch->half.data(), place);
+            return bits(distance2_between(middles, halves, middle, half) <= reach * reach);
+          },
+          [&](std::uint32_t place) {
+            const std::uint32_t o = grid.filed(place);
+            const Edge other(first, o);
+            if (itself && other.shares_end(edge)) return;
+            add(
+                *this, {NearKind::kEdges, o, e, cloth, 0.0f, 0.0f},
+                [&] { return rest_distance_between(*first.garment, other, edge); }, stats);
+          });
+    }
+  });
 }
 
 }  // namespace pleat

@@ -40,9 +40,6 @@ struct NearSearch {
   NearMemory* memory = nullptr;
   NearPairList pairs;  // added to
 
-  /// The most points of a garment that are filed in a grid.
-  static std::size_t most_points(const Garment& garment);
-
   /// Particles of the first cloth and faces of the second; of one cloth, those that are no corner.
   void find_particle_face(NearKind kind, Stats& stats) const;
   /// Edges of the first and of the second cloth; of one cloth, each two that share no particle once.

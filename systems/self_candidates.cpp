@@ -15,8 +15,7 @@ float relative_motion(ConstVec3View from, ConstVec3View to, std::uint32_t count)
 bool SelfCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && distance >= 0.0f &&
          pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && scratch != nullptr &&
-         scratch->pairs.size() >= pairs.capacity && scratch->grid.holds(NearSearch::most_points(*garment)) &&
-         scratch->middle.size() >= garment->edge_count;
+         scratch->pairs.size() >= pairs.capacity && scratch->holds(garment->particle_count, garment->edge_count);
 }
 
 void SelfCandidates::run(Stats& stats) const {

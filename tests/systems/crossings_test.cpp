@@ -11,8 +11,7 @@ namespace {
 
 std::size_t crossings(const ContactCloth& edges, const ContactCloth& faces) {
   NearScratch scratch(memory());
-  scratch.middle.resize(edges.garment.edge_count);
-  scratch.grid.make_room(edges.garment.edge_count);
+  scratch.make_room(edges.garment.particle_count, edges.garment.edge_count);
   const Crossings search{
       {&edges.garment, edges.position.view()}, {&faces.garment, faces.position.view()}, &edges == &faces, &scratch};
   EXPECT_TRUE(search.validate());

@@ -42,8 +42,7 @@ struct Layered {
                   .end = std::as_const(end).view(),
                   .low = box.low,
                   .high = box.high};
-    scratch.pairs.resize(512), scratch.middle.resize(64), scratch.pose.resize(64);
-    scratch.grid.make_room(64);
+    scratch.pairs.resize(512), scratch.make_room(64, 64);
   }
   NearPairList list() { return {pairs.data(), 512, &pair_count}; }
   void search(float t0, float t1) {

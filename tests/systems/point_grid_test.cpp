@@ -34,10 +34,7 @@ TEST(PointGrid, PropertyEveryPointInABoxIsVisitedOnce) {
         box.include({place(random), place(random), place(random)});
         box = box.grown(0.4f);
         std::vector<int> visits(200);
-        grid.for_each_near(box, [&](std::uint32_t i, const Vec3& p) {
-          ++visits[i];
-          EXPECT_EQ(p, points.column.view()[i]);
-        });
+        grid.for_each_near(box, [&](std::uint32_t i) { ++visits[i]; });
         for (std::size_t i = 0; i < 200; ++i) {
           const Vec3 p = points.column.view()[i];
           EXPECT_LE(visits[i], 1);
@@ -55,8 +52,8 @@ TEST(PointGrid, PointsThatAreNotFiniteHarmNothing) {
     points.column.view().set(2, bad);
     int visits = 0;
     const PointGrid grid = points.grid(0.1f);
-    grid.for_each_near(Box{{-1, -1, -1}, {1, 1, 1}}, [&](std::uint32_t, const Vec3&) { ++visits; });
-    grid.for_each_near(Box{bad, bad}, [&](std::uint32_t, const Vec3&) {});
+    grid.for_each_near(Box{{-1, -1, -1}, {1, 1, 1}}, [&](std::uint32_t) { ++visits; });
+    grid.for_each_near(Box{bad, bad}, [&](std::uint32_t) {});
     EXPECT_LE(visits, 5);
   }
 }

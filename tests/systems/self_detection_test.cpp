@@ -29,8 +29,7 @@ struct SelfCloth : ContactCloth {
   SelfCandidates candidates(float distance = kDistance) {
     const std::uint32_t n = garment.particle_count, capacity = 64 * n;
     pairs.resize(capacity), scratch.pairs.resize(capacity);
-    scratch.middle.resize(garment.edge_count);
-    scratch.grid.make_room(NearSearch::most_points(garment));
+    scratch.make_room(garment.particle_count, garment.edge_count);
     sought_at.resize(n);
     return {.garment = &garment,
             .position = position.view(),
