@@ -83,15 +83,18 @@ struct NearScratch {
   Column<NearPair> pairs;
   Vec3Column middle, pose;
   Column<Vec4> half;  // of edges as the grid files them: from the middle to an end, m; and 1 / its length squared, 1/m2
+  Column<Vec4> other, other_begin;  // m, of a cloth below at the substep's end and when it began
   GridScratch grid;
 
-  explicit NearScratch(std::pmr::memory_resource* m) : pairs(m), middle(m), pose(m), half(m), grid(m) {}
+  explicit NearScratch(std::pmr::memory_resource* m)
+      : pairs(m), middle(m), pose(m), half(m), other(m), other_begin(m), grid(m) {}
   bool holds(std::size_t particles, std::size_t edges) const {
     return middle.size() >= edges && half.size() >= edges && pose.size() >= particles &&
            grid.holds(std::max(particles, edges));
   }
   void make_room(std::size_t particles, std::size_t edges) {
     at_least(middle, edges), at_least(half, edges), at_least(pose, particles);
+    at_least(other, particles), at_least(other_begin, particles);
     grid.make_room(std::max(particles, edges));
   }
 };

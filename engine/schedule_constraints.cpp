@@ -139,7 +139,8 @@ constexpr Row kRows[] = {
     {Phase::kContact, "self_detection", with_itself,
      [](ClothTick& t) {
        run(SelfDetection{.garment = &t.garment,
-                         .position = t.position,
+                         .position = t.worker.packed.position.data(),
+                         .begin = t.worker.packed.previous.data(),
                          .previous = t.previous,
                          .inverse_mass = t.inverse_mass,
                          .pairs = self_pairs_of(t),
@@ -171,7 +172,8 @@ constexpr Row kRows[] = {
     {Phase::kContact, "layer_detection", with_layers,
      [](ClothTick& t) {
        run(LayerDetection{.garment = &t.garment,
-                          .position = t.position,
+                          .position = t.worker.packed.position.data(),
+                          .begin = t.worker.packed.previous.data(),
                           .previous = t.previous,
                           .origin = t.cloth.origin,
                           .inverse_mass = t.inverse_mass,
@@ -181,6 +183,7 @@ constexpr Row kRows[] = {
                           .pairs = layer_pairs_of(t),
                           .friction = t.settings.friction,
                           .dt = t.dt,
+                          .scratch = &t.worker.near_scratch,
                           .contacts = contacts_of(t)},
            t.worker.stats);
        t.cloth_rows = t.worker.contact_count;

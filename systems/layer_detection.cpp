@@ -1,63 +1,62 @@
 #include "systems/layer_detection.h"
 
-#include <array>
-
 #include "systems/close_pairs.h"
-#include "systems/closeness.h"
 #include "systems/contact_row.h"
 
 namespace pleat {
 namespace {
 
-/// The pairs of one cloth with those below it, for for_each_close_pair.
+/// Of the four corners of a pair, the cloth's own; the others are the other cloth's.
+bool is_own(NearKind kind, std::uint32_t k) {
+  return kind == NearKind::kEdges ? k < 2 : (k == 0) == (kind == NearKind::kParticleFace);
+}
+
+/// LayerCloth::at of all its particles.
+PLEAT_KERNEL void pose(const LayerCloth& cloth, float t, const Vec3& origin, Vec4* to) {
+  const Vec3Lanes apart = all(cloth.origin - origin);
+  for (std::size_t i = 0; i < cloth.garment->particle_count; i += kLanes) {
+    const Vec3Lanes from = load(cloth.begin, i);
+    pack(from + (load(cloth.end, i) - from) * all(t) + apart, Lanes{}, to + i);
+  }
+}
+
+/// The pairs of one cloth with those below it, for for_each_close_pair, which has those with a cloth after each other.
 struct LayerPairs {
   const LayerDetection& in;
+  std::uint32_t posed = kNone;  // the other cloth that is in the scratch
 
-  /// Of the four corners of a pair, the cloth's own; the others are the other cloth's.
-  static bool is_own(NearKind kind, std::uint32_t k) {
-    return kind == NearKind::kEdges ? k < 2 : (k == 0) == (kind == NearKind::kParticleFace);
-  }
-  std::array<std::uint32_t, 4> corners_of(const NearPair& pair) const {
-    const Garment &own = *in.garment, &other = *in.clothes[pair.cloth].garment;
+  PLEAT_KERNEL PairColumns columns_of(const NearPair& pair) {
+    const LayerCloth& cloth = in.clothes[pair.cloth];
+    if (pair.cloth != posed) {
+      pose(cloth, in.t1, in.origin, in.scratch->other.data());
+      pose(cloth, in.t0, in.origin, in.scratch->other_begin.data());
+      posed = pair.cloth;
+    }
+    const Garment &own = *in.garment, &other = *cloth.garment;
+    const auto& corner = (pair.kind == NearKind::kOtherParticleFace ? own : other).face_particle;
+    PairColumns columns{{nullptr, corner[0].data(), corner[1].data(), corner[2].data()}, {}, {}};
     if (pair.kind == NearKind::kEdges) {
       const auto &a = own.edge_particle, &b = other.edge_particle;
-      return {a[0][pair.first], a[1][pair.first], b[0][pair.second], b[1][pair.second]};
+      columns.particle = {a[0].data(), a[1].data(), b[0].data(), b[1].data()};
     }
-    const auto& face = (pair.kind == NearKind::kOtherParticleFace ? own : other).face_particle;
-    return {pair.first, face[0][pair.second], face[1][pair.second], face[2][pair.second]};
-  }
-  PLEAT_KERNEL Vec3Lanes end(const NearPair& pair, std::uint32_t k, const std::uint32_t* index) const {
-    return is_own(pair.kind, k) ? gather(in.position, index) : others(in.clothes[pair.cloth], in.t1, index);
-  }
-  PLEAT_KERNEL Vec3Lanes begin(const NearPair& pair, std::uint32_t k, const std::uint32_t* index) const {
-    return is_own(pair.kind, k) ? gather(in.previous, index) : others(in.clothes[pair.cloth], in.t0, index);
-  }
-
- private:
-  /// LayerCloth::at, of eight.
-  PLEAT_KERNEL Vec3Lanes others(const LayerCloth& cloth, float t, const std::uint32_t* index) const {
-    const Vec3Lanes from = gather(cloth.begin, index), to = gather(cloth.end, index);
-    return from + (to - from) * all(t) + all(cloth.origin - in.origin);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const bool ours = is_own(pair.kind, k);
+      columns.now[k] = ours ? in.position : in.scratch->other.data();
+      columns.before[k] = ours ? in.begin : in.scratch->other_begin.data();
+    }
+    return columns;
   }
 };
 
-void add_row(const LayerDetection& in, NearPair& pair, const ContactRowMaker& rows, Stats& stats) {
-  const LayerCloth& other = in.clothes[pair.cloth];
-  if (pair.kind == NearKind::kOtherParticleFace && other.garment->particle_area[pair.first] == 0.0f) return;
-  const std::array<std::uint32_t, 4> corner = LayerPairs{in}.corners_of(pair);
-  const auto is_own = [&](std::uint32_t k) { return LayerPairs::is_own(pair.kind, k); };
-  Vec3 x[4], before[4];
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    x[k] = is_own(k) ? in.position[corner[k]] : other.at(corner[k], in.t1, in.origin);
-    before[k] = is_own(k) ? in.previous[corner[k]] : other.at(corner[k], in.t0, in.origin);
+void add_row(const LayerDetection& in, const ClosePair& close, const ContactRowMaker& rows, Stats& stats) {
+  const NearPair& pair = close.pair;
+  if (pair.kind == NearKind::kOtherParticleFace && in.clothes[pair.cloth].garment->particle_area[pair.first] == 0.0f) {
+    return;
   }
-  Closeness near;
-  if (!closeness(pair.kind, x, before, pair.side, near) || near.distance > 2.0f * pair.distance) return;
-
-  const float sign = is_own(0) ? 1.0f : -1.0f;  // so that the weights of the own feature sum to 1
+  const float sign = is_own(pair.kind, 0) ? 1.0f : -1.0f;  // so that the weights of the own feature sum to 1
   ContactRow row{.particle = {},
                  .weight = {},
-                 .normal = near.normal * sign,
+                 .normal = close.normal * sign,
                  .offset = pair.distance,
                  .body_step = {},
                  .friction = in.friction,
@@ -66,12 +65,12 @@ void add_row(const LayerDetection& in, NearPair& pair, const ContactRowMaker& ro
                  .push = 0.0f,
                  .rubbed = 0.0f};
   for (std::uint32_t k = 0; k < 4; ++k) {
-    if (is_own(k)) {
-      row.particle[row.count] = corner[k];
-      row.weight[row.count++] = sign * near.weight[k];
+    if (is_own(pair.kind, k)) {
+      row.particle[row.count] = close.particle[k];
+      row.weight[row.count++] = sign * close.weight[k];
     } else {
-      row.offset -= near.weight[k] * dot(near.normal, x[k]);
-      row.body_step += (x[k] - before[k]) * (-sign * near.weight[k]);
+      row.offset -= close.weight[k] * dot(close.normal, close.x(k));
+      row.body_step += (close.x(k) - close.was(k)) * (-sign * close.weight[k]);
     }
   }
   rows.add(row, stats);
@@ -80,14 +79,16 @@ void add_row(const LayerDetection& in, NearPair& pair, const ContactRowMaker& ro
 }  // namespace
 
 bool LayerDetection::validate() const {
-  return garment != nullptr && position.x != nullptr && previous.x != nullptr && inverse_mass != nullptr && t0 < t1 &&
-         pairs.pairs != nullptr && pairs.count != nullptr && friction >= 0.0f && dt > 0.0f && contacts.count != nullptr;
+  return garment != nullptr && position != nullptr && begin != nullptr && previous.x != nullptr &&
+         inverse_mass != nullptr && t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && friction >= 0.0f &&
+         dt > 0.0f && scratch != nullptr && contacts.count != nullptr;
 }
 
 void LayerDetection::run(Stats& stats) const {
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   run_wide(widest_vectors(), [&] {
-    for_each_close_pair(pairs, LayerPairs{*this}, [&](NearPair& pair) { add_row(*this, pair, rows, stats); });
+    LayerPairs all_pairs{*this};
+    for_each_close_pair(pairs, all_pairs, [&](const ClosePair& close) { add_row(*this, close, rows, stats); });
   });
 }
 

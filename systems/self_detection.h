@@ -16,13 +16,14 @@ namespace pleat {
 /// so: what was forced through comes back. Moves are shared by inverse mass, so momentum is kept.
 /// Not seen: features that pass each other within a substep on their way past each other's end, and edges that cross
 /// while nearly parallel.
-/// Reads:  garment faces, edges; position, previous (P) m; inverse_mass (P) 1/kg
+/// Reads:  garment faces, edges; position, begin (P), packed, previous (P) m; inverse_mass (P) 1/kg
 /// Writes: side of the pairs; contacts, added to; stats.contacts_dropped
 /// Cost:   O(pairs), no allocation. Errors: none; features without extent make no row.
 struct SelfDetection {
   const Garment* garment = nullptr;
-  ConstVec3View position;  // predicted
-  ConstVec3View previous;  // when the substep began
+  const Vec4* position = nullptr;  // predicted
+  const Vec4* begin = nullptr;     // when the substep began
+  ConstVec3View previous;          // the same
   const float* inverse_mass = nullptr;
   NearPairList pairs;
   float friction = 0.0f;

@@ -39,7 +39,7 @@ struct Eight {
 TEST(ClosePairsProperty, WhoNeedNotBeLookedAtIsLeftAsClosenessLeavesIt) {
   std::mt19937 random(7);
   constexpr float kMost = 0.01f;
-  std::size_t looked = 0, left = 0, sides = 0;
+  std::size_t looked = 0, left = 0, sides = 0, close_by = 0;
   for (int round = 0; round < 4000; ++round) {
     const NearKind kind = round % 2 == 0 ? NearKind::kParticleFace : NearKind::kEdges;
     const Eight eight(random);
@@ -50,12 +50,20 @@ TEST(ClosePairsProperty, WhoNeedNotBeLookedAtIsLeftAsClosenessLeavesIt) {
     const auto before = [&](Vec3Lanes(&begin)[4]) {
       for (std::size_t k = 0; k < 4; ++k) begin[k] = Eight::lanes(eight.before, k);
     };
-    const std::uint32_t close = close_ones(kind, x, before, all(kMost), side);
+    const CloseOnes close = close_ones(kind, x, before, all(kMost), side);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       float expected = eight.side[lane];
       Closeness near;
       const bool over = closeness(kind, eight.x[lane], eight.before[lane], expected, near);
-      if ((close >> lane & 1) == 0) {
+      if ((close.near >> lane & 1) != 0) {
+        ++close_by;
+        EXPECT_TRUE(over && near.distance <= kMost && (close.passed >> lane & 1) == 0);
+        EXPECT_EQ(side[lane], expected);
+        EXPECT_EQ(Vec3(close.normal.x[lane], close.normal.y[lane], close.normal.z[lane]), near.normal);
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(close.weight[k][lane], near.weight[k]);
+        continue;
+      }
+      if ((close.passed >> lane & 1) == 0) {
         ++left, sides += expected != eight.side[lane];
         EXPECT_EQ(side[lane], expected);
         EXPECT_TRUE(!over || near.distance > kMost);
@@ -73,39 +81,38 @@ TEST(ClosePairsProperty, WhoNeedNotBeLookedAtIsLeftAsClosenessLeavesIt) {
   }
   EXPECT_GT(looked, 1000u);
   EXPECT_GT(left, 1000u);
+  EXPECT_GT(close_by, 1000u);
   EXPECT_GT(sides, 1000u);
 }
 
-/// Pairs that stand side by side in a list, of numbered points.
+/// Particles against the face of particles 2, 3 and 4.
 struct Points {
-  const std::vector<Vec3>& x;
-  std::array<std::uint32_t, 4> corners_of(const NearPair& pair) const {
-    return {pair.first, pair.second, pair.second + 1, pair.second + 2};
-  }
-  Vec3Lanes end(const NearPair&, std::uint32_t, const std::uint32_t* index) const {
-    Vec3Lanes v;
-    for (std::uint32_t k = 0; k < kLanes; ++k) v.x[k] = x[index[k]].x, v.y[k] = x[index[k]].y, v.z[k] = x[index[k]].z;
-    return v;
-  }
-  Vec3Lanes begin(const NearPair& pair, std::uint32_t k, const std::uint32_t* index) const {
-    return end(pair, k, index);
+  const Column<Vec4>& x;
+  std::uint32_t corner[3] = {2, 3, 4};
+  PairColumns columns_of(const NearPair&) const {
+    PairColumns columns{{nullptr, &corner[0], &corner[1], &corner[2]}, {}, {}};
+    columns.now.fill(x.data()), columns.before.fill(x.data());
+    return columns;
   }
 };
 
 TEST(ClosePairs, AreVisitedInTheirOrderWhateverTheRunsOfTheirKinds) {
-  const std::vector<Vec3> x = {{0, 0.001f, 0}, {0, 1, 0}, {-1, 0, -1}, {-1, 0, 2}, {2, 0, -1}};
+  Column<Vec4> x(std::pmr::new_delete_resource());
+  x.resize(5);
+  x[0] = {0, 0.001f, 0, 0}, x[1] = {0, 1, 0, 0}, x[2] = {-1, 0, -1, 0}, x[3] = {-1, 0, 2, 0}, x[4] = {2, 0, -1, 0};
+  const Points points{x};
   for (const std::uint32_t count : {0u, 1u, 7u, 8u, 9u, 30u}) {
     std::vector<NearPair> pairs;
     std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < count; ++i) {
       const bool close = i % 3 != 1;
-      pairs.push_back({NearKind::kParticleFace, close ? 0u : 1u, 2, i / 5, 0.005f, 0.0f});
+      pairs.push_back({NearKind::kParticleFace, close ? 0u : 1u, 0, i / 5, 0.005f, 0.0f});
       if (close) expected.push_back(i);
     }
     std::uint32_t size = count;
     std::vector<std::uint32_t> visited;
-    for_each_close_pair({pairs.data(), count, &size}, Points{x}, [&](const NearPair& pair) {
-      visited.push_back(static_cast<std::uint32_t>(&pair - pairs.data()));
+    for_each_close_pair({pairs.data(), count, &size}, points, [&](const ClosePair& close) {
+      visited.push_back(static_cast<std::uint32_t>(&close.pair - pairs.data()));
     });
     EXPECT_EQ(visited, expected);
     for (const NearPair& pair : pairs) EXPECT_EQ(std::abs(pair.side), 1.0f);

@@ -66,7 +66,8 @@ struct Layered {
   void detect(float t0, float t1) {
     own.row_count = 0;
     const LayerDetection detection{.garment = &own.garment,
-                                   .position = own.position.view(),
+                                   .position = own.packed_position(),
+                                   .begin = own.packed_previous(),
                                    .previous = own.previous.view(),
                                    .inverse_mass = own.inverse_mass.data(),
                                    .clothes = clothes,
@@ -75,6 +76,7 @@ struct Layered {
                                    .pairs = list(),
                                    .friction = 0.3f,
                                    .dt = kDt,
+                                   .scratch = &scratch,
                                    .contacts = own.contacts()};
     ASSERT_TRUE(detection.validate());
     detection.run(stats);

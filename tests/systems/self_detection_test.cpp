@@ -45,7 +45,8 @@ struct SelfCloth : ContactCloth {
     search.run(stats);
     row_count = 0;
     const SelfDetection detection{.garment = &garment,
-                                  .position = position.view(),
+                                  .position = packed_position(),
+                                  .begin = packed_previous(),
                                   .previous = previous.view(),
                                   .inverse_mass = inverse_mass.data(),
                                   .pairs = search.pairs,
