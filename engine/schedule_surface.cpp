@@ -172,8 +172,7 @@ constexpr Row kRows[] = {
                          .meshes = w.mesh_pointers.data(),
                          .t = t.t1,
                          .clearance = surface_clearance(t),
-                         .near = t.worker.near_triangles.data(),
-                         .near_capacity = static_cast<std::uint32_t>(t.worker.near_triangles.size()),
+                         .near = t.worker.near_triangles.view(),
                          .planes = clearance_planes(t),
                          .drawn_position = t.drawn_position});
      }},

@@ -61,7 +61,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
     if (!world.meshes.empty()) at_least(worker.footprint, pattern->vertex_count);
     at_least(worker.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
-    for (const MeshRecord& body : world.meshes) at_least(worker.near_triangles, body.mesh.triangles.size() / 3);
+    for (const MeshRecord& body : world.meshes) worker.near_triangles.make_room(body.mesh.triangles.size() / 3);
   }
 }
 #endif

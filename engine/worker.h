@@ -9,6 +9,7 @@
 #include "components/hinge_scratch.h"
 #include "components/mesh_candidates.h"
 #include "components/near_pairs.h"
+#include "components/near_triangles.h"
 #include "components/stats.h"
 #include "components/surface.h"
 #include "components/vec4.h"
@@ -32,7 +33,7 @@ struct Worker {
   Column<float> bulge;       // m, of faces; empty unless a cloth is drawn
   Column<Vec4> normal_sum;   // of normals and of shaded normals; empty unless a cloth is drawn
   Column<ClearancePlane> clearance_planes;
-  Column<NearTriangle> near_triangles;
+  NearTriangleColumns near_triangles;
   FoldScratch fold_scratch;  // empty unless a cloth relaxes its folds
   std::uint32_t capsule_pose_count = 0, contact_count = 0, clearance_plane_count = 0;
 

@@ -33,9 +33,10 @@ struct MeshTree {
   Box bounds;
   btTriangleIndexVertexArray boxes;
   btOptimizedBvh tree;
+  BoxTree wide;  // the same, in the order of its leaves
 
   MeshTree(const MeshCollider& mesh, std::pmr::memory_resource* memory)
-      : topology(build_body_topology(mesh, memory)), corners(memory), indices(memory) {
+      : topology(build_body_topology(mesh, memory)), corners(memory), indices(memory), wide(memory) {
     const std::size_t count = mesh.triangles.size() / 3;
     corners.resize(6 * count);
     indices.resize(3 * count);
@@ -54,11 +55,19 @@ struct MeshTree {
     part.m_vertexStride = 3 * sizeof(btScalar);
     boxes.addIndexedMesh(part);
     tree.build(&boxes, true, to_bullet(bounds.low), to_bullet(bounds.high));
+    std::vector<std::uint32_t> order;
+    const QuantizedNodeArray& nodes = tree.getQuantizedNodeArray();
+    for (int n = 0; n < nodes.size(); ++n) {
+      if (nodes[n].isLeafNode()) order.push_back(static_cast<std::uint32_t>(nodes[n].getTriangleIndex()));
+    }
+    wide.build(order.data(), order.size());
+    wide.refit(corners.data());
   }
 
   void refit(const MeshCollider& mesh) {
     sweep(mesh);
     tree.refit(&boxes, to_bullet(bounds.low), to_bullet(bounds.high));
+    wide.refit(corners.data());
   }
 
  private:
@@ -133,6 +142,7 @@ void CollisionBodies::update_mesh(std::size_t index, const MeshCollider& mesh) {
 std::size_t CollisionBodies::mesh_count() const { return trees_->meshes.size(); }
 const BodyTopology& CollisionBodies::topology(std::size_t mesh) const { return trees_->meshes[mesh]->topology; }
 const Box& CollisionBodies::swept_box(std::size_t mesh) const { return trees_->meshes[mesh]->bounds; }
+const BoxTree& CollisionBodies::triangle_boxes(std::size_t mesh) const { return trees_->meshes[mesh]->wide; }
 
 void CollisionBodies::find_capsules(const Box& box, Visitor visitor) const {
   struct Leaves : btDbvt::ICollide {

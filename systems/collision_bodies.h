@@ -9,6 +9,7 @@
 #include "components/colliders.h"
 #include "systems/body_topology.h"
 #include "systems/box.h"
+#include "systems/box_tree.h"
 
 namespace pleat {
 
@@ -35,6 +36,8 @@ class CollisionBodies {
   std::size_t mesh_count() const;
   const BodyTopology& topology(std::size_t mesh) const;
   const Box& swept_box(std::size_t mesh) const;
+  /// Of the triangles, with the boxes they sweep, in the order in which for_each_triangle comes to them.
+  const BoxTree& triangle_boxes(std::size_t mesh) const;
 
   /// visit(index) for every capsule, or triangle of a mesh, whose swept box overlaps `box` (and for some others). Order
   /// depends on the tree: sort where it matters.

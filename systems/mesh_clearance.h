@@ -15,6 +15,7 @@
 
 #include "components/colliders.h"
 #include "components/garment.h"
+#include "components/near_triangles.h"
 #include "components/tessellation_pattern.h"
 #include "systems/clearance_list.h"
 #include "systems/collision_bodies.h"
@@ -35,8 +36,7 @@ struct MeshClearance {
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
   float t = 1.0f;                               // fraction of the tick at which the bodies are asked for
   float clearance = 0.0f;                       // m
-  NearTriangle* near = nullptr;
-  std::uint32_t near_capacity = 0;  // as many as the largest body has triangles: what is more is not seen
+  NearTriangleView near;                        // room for the largest body
   ClearanceList planes;
   Vec3View drawn_position;
 

@@ -54,6 +54,16 @@ struct MeshPose {
   Vec3 vertex(std::uint32_t v) const {
     return rigid ? end.apply(local[v]) : lerp(previous[v] - origin, next_vertex(v), t1);
   }
+  /// Eight of them, with the same bits.
+  PLEAT_KERNEL Vec3Lanes vertices(const std::uint32_t* v) const {
+    if (rigid) {
+      const Vec3Lanes at = gather(local, v), axis = all({end.rotation.x, end.rotation.y, end.rotation.z});
+      const Vec3Lanes turn = cross(axis, at) * 2.0f;
+      return all(end.position) + (at + (turn * end.rotation.w + cross(axis, turn)));
+    }
+    const Vec3Lanes from = gather(previous, v) - all(origin), to = gather(next, v) - all(origin);
+    return from + (to - from) * t1;
+  }
   /// Where it will be when the tick ends.
   Vec3 next_vertex(std::uint32_t v) const { return next[v] - origin; }
   /// Motion from t0 to t1.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "systems/closest_points.h"
+#include "systems/mesh_pose.h"
 #include "tests/systems/contact_scene.h"
 #include "tests/systems/surface_fixture.h"
 
@@ -32,12 +34,12 @@ struct Sagging {
   const MeshCollider* pointer = &mesh;
   CollisionBodies bodies{memory()};
   Vec3Column footprint{memory()};
-  std::vector<NearTriangle> near;
+  NearTriangleColumns near{memory()};
   std::vector<ClearancePlane> planes = std::vector<ClearancePlane>(4096);
   std::uint32_t count = 0;
 
-  Sagging(float sag, MeshCollider&& body, std::uint32_t level = 0)
-      : surface(sheet(5), level), mesh(std::move(body)), near(mesh.triangles.size() / 3) {
+  Sagging(float sag, MeshCollider&& body, std::uint32_t level = 0) : surface(sheet(5), level), mesh(std::move(body)) {
+    near.make_room(mesh.triangles.size() / 3);
     bodies.add_mesh(mesh);
     surface.run();
     footprint.resize(surface.pattern.vertex_count);
@@ -64,8 +66,7 @@ struct Sagging {
             .bodies = &bodies,
             .meshes = &pointer,
             .clearance = kClearance,
-            .near = near.data(),
-            .near_capacity = static_cast<std::uint32_t>(near.size()),
+            .near = near.view(),
             .planes = {planes.data(), static_cast<std::uint32_t>(planes.size()), &count},
             .drawn_position = surface.drawn.view()};
   }
@@ -209,6 +210,120 @@ TEST(MeshClearance, AListTooSmallIsSettledInTurn) {
   EXPECT_GE(s.least_distance(), kClearance - kRounding);
 }
 
+/// The planes that are needed, triangle by triangle and pair by pair. Independent of how the system finds them.
+std::vector<std::vector<ClearancePlane>> plain_planes(const Sagging& s) {
+  const TessellationPattern& pattern = s.surface.pattern;
+  const MeshPose pose{s.mesh, s.bodies.topology(0), 1.0f, 1.0f};
+  const float kept = kClearance + s.mesh.thickness;
+  const ConstVec3View at = s.footprint.view();
+  std::vector<std::vector<ClearancePlane>> planes;
+  for (std::uint32_t f = 0; f < s.surface.garment.face_count; ++f) {
+    const std::uint32_t* of_face = pattern.face_vertices.data() + std::size_t{f} * pattern.vertices_per_face;
+    const Vec3 face = at[of_face[0]];
+    const Vec3 up = normalized_or(cross(at[of_face[1]] - face, at[of_face[2]] - face), Vec3{});
+    for (std::size_t t = 0; t < pattern.face_triangles.size(); t += 3) {
+      std::vector<std::pair<float, ClearancePlane>> outside, inside;
+      std::uint32_t v[3];
+      Vec3 p[3];
+      float bulge_up = 0.0f, bulge_down = 0.0f;
+      for (std::size_t k = 0; k < 3; ++k) {
+        v[k] = of_face[pattern.face_triangles[t + k]], p[k] = at[v[k]];
+        const Vec3 moved = s.drawn(v[k]) - p[k];
+        const float rise = dot(moved, up), aside = length(moved - up * rise);
+        bulge_up = std::max(bulge_up, std::max(rise, 0.0f) + aside);
+        bulge_down = std::max(bulge_down, std::max(-rise, 0.0f) + aside);
+      }
+      for (std::uint32_t b = 0; b < s.mesh.triangles.size() / 3; ++b) {
+        const MeshPose::Corners corners = pose.corners(b);
+        const Vec3 q[3] = {corners.a, corners.b, corners.c};
+        const float h[3] = {dot(q[0] - face, up), dot(q[1] - face, up), dot(q[2] - face, up)};
+        const float limit = kept + (std::min({h[0], h[1], h[2]}) > 0.0f   ? bulge_up
+                                    : std::max({h[0], h[1], h[2]}) < 0.0f ? bulge_down
+                                                                          : std::max(bulge_up, bulge_down));
+        const TrianglePair pair = closest_between_triangles(p, q);
+        const Vec3 surface = pair.second.point(q[0], q[1], q[2]), away = pair.first.point(p[0], p[1], p[2]) - surface;
+        const float distance = length(away);
+        if (distance >= limit) continue;
+        const Vec3 direction = normalized_or(away, Vec3{});
+        if (pair.second.zeros() == 2 && !pose.is_extreme(pose.corner(b, pair.second.corner()), direction, 0.02f)) {
+          continue;
+        }
+        if (pair.second.zeros() == 1) {
+          const auto edge = static_cast<std::uint32_t>(pair.second.edge());
+          const MeshPose::Corners next = pose.corners(pose.topology.neighbour[3 * b + edge]);
+          bool rises = false;
+          for (int k = 0; k < 3; ++k) {
+            rises = rises || dot(next[k] - surface, direction) > 0.02f * length(next[k] - surface);
+          }
+          if (rises) continue;
+        }
+        const Vec3 outward = pose.outward(b, pair.second).normal;
+        const bool is_outside = dot(away, outward) >= 0.0f;
+        if (!is_outside && distance > s.mesh.depth) continue;
+        const Vec3 normal =
+            pair.second.zeros() == 0 ? normalized_or(outward, Vec3{}) : direction * (is_outside ? 1.0f : -1.0f);
+        (is_outside ? outside : inside)
+            .push_back({distance, {normal, dot(normal, surface) + kept, {v[0], v[1], v[2]}}});
+      }
+      const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+      std::ranges::sort(outside, nearer), std::ranges::sort(inside, nearer);
+      if (!inside.empty() && (outside.empty() || nearer(inside.front(), outside.front()))) {
+        planes.push_back({inside.front().second});
+      } else if (!outside.empty()) {
+        planes.emplace_back();
+        for (const auto& found : outside) planes.back().push_back(found.second);
+      }
+    }
+  }
+  return planes;
+}
+
+TEST(MeshClearance, PropertyEveryVectorSetFindsThePlanesThatPairsOneByOneHave) {
+  const VectorSet limit = vector_limit;
+  for (const std::uint32_t level : {0u, 3u}) {
+    for (const BodyShape& shape : {icosphere(2, 0.3f), box_shape({0.2f, 0.2f, 0.33f})}) {
+      Sagging s(0.008f, under_sheet(shape, 0.2f, 0.013f, 0.004f), level);
+      const std::vector<std::vector<ClearancePlane>> expected = plain_planes(s);
+      ASSERT_GT(expected.size(), 10u);
+      for (const VectorSet set : kVectorSets) {
+        vector_limit = set;
+        s.count = 0;
+        s.system().run();
+        std::uint32_t next = 0;
+        for (const std::vector<ClearancePlane>& planes : expected) {
+          ASSERT_LE(planes.size(), 8u);
+          ASSERT_LE(next + planes.size(), s.count);
+          for (std::size_t k = 0; k < planes.size(); ++k, ++next) {
+            const ClearancePlane& found = s.planes[next];
+            EXPECT_TRUE(std::ranges::any_of(planes,
+                                            [&](const ClearancePlane& p) {
+                                              return std::ranges::equal(p.vertex, found.vertex) &&
+                                                     length(p.normal - found.normal) < 1e-5f &&
+                                                     std::abs(p.height - found.height) < 1e-6f;
+                                            }))
+                << "plane " << next << ", level " << level;
+          }
+        }
+        EXPECT_EQ(next, s.count);
+      }
+    }
+  }
+  vector_limit = limit;
+}
+
+TEST(MeshClearance, PropertyEveryVectorSetGivesTheSameBits) {
+  const VectorSet limit = vector_limit;
+  std::vector<Vec3> expected;
+  for (const VectorSet set : kVectorSets) {
+    vector_limit = set;
+    Sagging s(0.03f, under_sheet(icosphere(3, 0.3f), 0.2f, 0.013f));
+    s.run();
+    if (set == VectorSet::kBaseline) expected = s.all_drawn();
+    EXPECT_EQ(s.all_drawn(), expected);
+  }
+  vector_limit = limit;
+}
+
 TEST(MeshClearance, ValidateNamesWhatIsMissing) {
   Sagging s(0.03f, under_sheet(icosphere(0, 0.3f)));
   const MeshClearance good = s.system();
@@ -218,7 +333,7 @@ TEST(MeshClearance, ValidateNamesWhatIsMissing) {
   EXPECT_FALSE(bad.validate());
   bad = good, bad.meshes = nullptr;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.near = nullptr;
+  bad = good, bad.near.place = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = good, bad.planes.capacity = 0;
   EXPECT_FALSE(bad.validate());
