@@ -1,7 +1,9 @@
 // Which features of cloths are near each other, and on which side of each other they belong.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "components/lanes.h"
 
@@ -52,6 +54,41 @@ struct LayerCloth {
 
   /// Particle i at the fraction t of the tick, as seen from another origin.
   Vec3 at(std::uint32_t i, float t, const Vec3& from) const { return lerp(begin[i], end[i], t) + (origin - from); }
+};
+
+/// Some clothes, by their places among the world's, in that order; or too many to be kept.
+struct LayersNear {
+  static constexpr std::uint32_t kMost = 16;
+
+  std::uint32_t count = 0;  // kMost + 1: too many
+  std::uint32_t cloth[kMost] = {};
+
+  bool too_many() const { return count > kMost; }
+  std::span<std::uint32_t> kept() { return {cloth, std::min(count, kMost)}; }
+  std::span<const std::uint32_t> kept() const { return {cloth, std::min(count, kMost)}; }
+  void add(std::uint32_t place) {
+    if (count < kMost) cloth[count] = place;
+    count = std::min(count + 1, kMost + 1);
+  }
+  /// Of too many none stays.
+  void remove(std::uint32_t place) {
+    if (too_many()) count = 0;
+    const auto found = std::ranges::find(kept(), place);
+    if (found == kept().end()) return;
+    std::move(found + 1, kept().end(), found);
+    --count;
+  }
+  bool operator==(const LayersNear& other) const {
+    return count == other.count && std::ranges::equal(kept(), other.kept());
+  }
+};
+
+/// When a cloth last looked for pairs with those below it, and how all have moved since.
+struct LayersSought {
+  LayersNear near;      // those that were near
+  Vec3 motion;          // m, of the cloth in ticks that are over
+  float others = 0.0f;  // m, how far one of those near has moved against that in these ticks at most
+  float t = 0.0f;       // the fraction of this tick from which on their motion is to be added
 };
 
 /// What layers keep; ranges as those of SelfColumns.

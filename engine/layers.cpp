@@ -32,6 +32,7 @@ void forget_layer_pairs(World& world, ClothRecord& cloth) {
   const auto position = static_cast<std::uint32_t>(&cloth - world.clothes.data());
   const auto before = [](const NearPair& pair, std::uint32_t other) { return pair.cloth < other; };
   for (ClothRecord& other : world.clothes) {
+    other.layers_sought.near.remove(position);  // if it still is near, the other sees that it is missing
     const std::span<NearPair> pairs = layer_pairs(world, other);
     const auto begin = std::lower_bound(pairs.begin(), pairs.end(), position, before);
     const auto end = std::lower_bound(begin, pairs.end(), position + 1, before);
@@ -43,7 +44,8 @@ void forget_layer_pairs(World& world, ClothRecord& cloth) {
 }
 
 void renumber_layer_pairs(World& world, std::uint32_t position) {
-  for (const ClothRecord& cloth : world.clothes) {
+  for (ClothRecord& cloth : world.clothes) {
+    for (std::uint32_t& near : cloth.layers_sought.near.kept()) near -= near > position ? 1 : 0;
     for (NearPair& pair : layer_pairs(world, cloth)) pair.cloth -= pair.cloth > position ? 1 : 0;
   }
 }

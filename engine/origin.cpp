@@ -24,7 +24,7 @@ void recentre(World& world, ClothRecord& cloth) {
   const Vec3 by = whole_cells(held ? Vec3(world.pin_next.view()[cloth.pin_begin]) : position[cloth.garment().stray_on]);
   if (by == Vec3{}) return;
   cloth.origin += by;
-  for (Vec3Column* column : {&world.particles.position, &world.self.sought_at}) {  // layers seek anew in each tick
+  for (Vec3Column* column : {&world.particles.position, &world.self.sought_at, &world.layers.sought_at}) {
     if (column->size() < cloth.particle_begin + particles) continue;
     shift(column->view().from(cloth.particle_begin), particles, by);
   }

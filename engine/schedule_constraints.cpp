@@ -164,7 +164,7 @@ constexpr Row kRows[] = {
                            .distance = t.settings.thickness,
                            .pairs = layer_pairs_of(t),
                            .sought_at = w.layers.sought_at.view().from(t.cloth.particle_begin),
-                           .t_sought = &t.cloth.layers_sought,
+                           .sought = &t.cloth.layers_sought,
                            .around = &t.layers_around,
                            .scratch = &t.worker.near_scratch},
            t.worker.stats);

@@ -12,7 +12,7 @@ namespace pleat::call {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x54414c50;  // "PLAT", and which end of a number comes first
-constexpr std::uint32_t kFormat = 1;          // one more whenever the list below changes
+constexpr std::uint32_t kFormat = 2;          // one more whenever the list below changes
 
 /// Pairs of a cloth with itself or with others.
 template <class Io, class Pairs>
@@ -131,9 +131,19 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
       near_pairs(io, world, cloth, world.self.pairs, count);
     }
   }
-  if (s.layer > 1) {  // where they were sought does not matter: each tick seeks anew, and only keeps their sides
+  if (s.layer > 1) {
     const std::uint32_t count = pair_count(io, cloth, cloth.layer_pair_count);
-    if (count != kNone) near_pairs(io, world, cloth, world.layers.pairs, count);
+    if (count != kNone) {
+      vectors(io, "pairs", world.layers.sought_at.view().from(cloth.particle_begin), particles, kPlace);
+      auto& sought = cloth.layers_sought;
+      const std::uint32_t near = number(io, "pairs", sought.near.count, {0.0, LayersNear::kMost + 1.0});
+      for (std::uint32_t k = 0; k < std::min(near, LayersNear::kMost); ++k) {
+        number(io, "pairs", sought.near.cloth[k], {0.0, static_cast<double>(world.clothes.size()) - 1.0});
+      }
+      vector(io, "pairs", sought.motion, kPlace);
+      number(io, "pairs", sought.others, kPositive);
+      near_pairs(io, world, cloth, world.layers.pairs, count);
+    }
   }
   number(io, "substeps", cloth.substeps_taken, {0.0, 8.0 * kMostSubsteps});
   number(io, "substeps", cloth.substeps_wanted, {0.0, kMostSubsteps});

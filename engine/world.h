@@ -64,7 +64,7 @@ struct ClothRecord {
   std::uint32_t substeps_taken = 0;
   ContactCounts contacts;
   std::uint32_t self_pair_count = kNone, layer_pair_count = kNone;  // none were sought yet
-  float layers_sought = 0.0f;                                       // for which fraction of the tick the latter were
+  LayersSought layers_sought;                                       // the latter
   Plan plan = 0;
   FrequencyRates rates;  // of these masses
   Notice lowered = Notice::kNothing, fallback = Notice::kNothing;

@@ -1,6 +1,7 @@
 #include "systems/layer_candidates.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "systems/closest_points.h"
 
@@ -9,20 +10,18 @@ namespace {
 
 constexpr float kSkin = 0.1f;  // m, by which a cloth may leave its box until the others around it are sought anew
 
-/// The furthest that a particle of either moves against one of the other, m: from one position to another, and between
-/// two fractions of the tick.
-float relative_motion(const LayerCandidates& in, ConstVec3View from, float t_from, const LayerCloth& other) {
-  const Vec3 mean = mean_motion(from, in.position, in.garment->particle_count);
-  return largest_motion(mean, from, in.position, in.garment->particle_count) +
-         largest_motion(mean, other.begin, other.end, other.garment->particle_count, in.t1 - t_from);
+/// What crosses in this substep is no further beyond than the two have moved against each other in it, m.
+float motion_in_substep(const LayerCandidates& in, const LayerCloth& other) {
+  const Vec3 mean = mean_motion(in.previous, in.position, in.garment->particle_count);
+  return largest_motion(mean, in.previous, in.position, in.garment->particle_count) +
+         largest_motion(mean, other.begin, other.end, other.garment->particle_count, in.t1 - in.t0);
 }
 
 /// All of one cloth below.
 void search(const LayerCandidates& in, std::uint32_t cloth, NearMemory& memory, Stats& stats) {
   const LayerCloth& other = in.clothes[cloth];
-  // What crosses in this substep is no further beyond than it has moved.
-  const float reach = std::max(2.0f * in.distance + near_margin(*in.garment, *other.garment),
-                               relative_motion(in, in.previous, in.t0, other));
+  const float reach =
+      std::max(2.0f * in.distance + near_margin(*in.garment, *other.garment), motion_in_substep(in, other));
   const Vec3View pose = in.scratch->pose.view();
   for (std::uint32_t i = 0; i < other.garment->particle_count; ++i) {
     pose.set(i, other.at(i, in.t1, in.origin));
@@ -54,6 +53,33 @@ LayersAround seek(const LayerCandidates& in, const Box& box) {
   return around;
 }
 
+LayersNear those_near(const LayerCandidates& in, const Box& box) {
+  LayersNear near;
+  for (std::uint32_t k = in.around->begin; k < in.around->end; ++k) {
+    if (may_touch(*in.garment, in.layer, in.distance, box, in.clothes[k])) near.add(k);
+  }
+  return near;
+}
+
+/// Whether the pairs are all that may touch still. As paths of others are known in this tick only, a tick's last
+/// substep keeps what they moved in it against the cloth's motion as a whole; over all ticks both add up to more than
+/// any two have moved against each other.
+bool still_hold(const LayerCandidates& in) {
+  LayersSought& last = *in.sought;
+  const Vec3 motion = mean_motion(in.sought_at, in.position, in.garment->particle_count);
+  float others = 0.0f, margin = std::numeric_limits<float>::max();
+  for (const std::uint32_t k : last.near.kept()) {
+    const LayerCloth& other = in.clothes[k];
+    others = std::max(others, largest_motion(motion - last.motion, other.begin, other.end,
+                                             other.garment->particle_count, in.t1 - last.t));
+    margin = std::min(margin, near_margin(*in.garment, *other.garment));
+  }
+  others += last.others;
+  if (largest_motion(motion, in.sought_at, in.position, in.garment->particle_count) + others > margin) return false;
+  if (in.t1 == 1.0f) last.motion = motion, last.others = others;
+  return true;
+}
+
 }  // namespace
 
 bool may_touch(const Garment& garment, std::uint32_t layer, float distance, const Box& box, const LayerCloth& other) {
@@ -64,7 +90,7 @@ bool may_touch(const Garment& garment, std::uint32_t layer, float distance, cons
 
 bool LayerCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && layer > 0 && distance >= 0.0f &&
-         t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && t_sought != nullptr &&
+         t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && sought != nullptr &&
          around != nullptr && scratch != nullptr && scratch->pairs.size() >= pairs.capacity &&
          scratch->holds(garment->particle_count, garment->edge_count);
 }
@@ -73,24 +99,20 @@ void LayerCandidates::run(Stats& stats) const {
   const std::uint32_t count = garment->particle_count;
   const Box box = box_of(previous, count).with(box_of(position, count)).moved(origin);
   if (!around->box.holds(box)) *around = seek(*this, box.grown(kSkin));
-  const auto is_near = [&](const LayerCloth& other) { return may_touch(*garment, layer, distance, box, other); };
-  const auto still_holds = [&](const LayerCloth& other) {
-    return !is_near(other) ||
-           relative_motion(*this, sought_at, *t_sought, other) <= near_margin(*garment, *other.garment);
-  };
+  const LayersNear near = those_near(*this, box);
+  if (t0 == 0.0f) sought->t = 0.0f;
   std::uint32_t kept = 0;
   if (*pairs.count != kNone) {
-    const auto some = clothes.subspan(around->begin, around->end - around->begin);
-    if (t0 > 0.0f && std::ranges::all_of(some, still_holds)) return;
+    if (near == sought->near && !near.too_many() && still_hold(*this)) return;
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
   copy(sought_at, position, garment->particle_count);
-  *t_sought = t1;
+  *sought = {.near = near, .motion = {}, .others = 0.0f, .t = t1};
   *pairs.count = 0;
   NearMemory memory{scratch->pairs.data(), scratch->pairs.data() + kept};
   for (std::uint32_t k = around->begin; k < around->end; ++k) {
-    if (is_near(clothes[k])) search(*this, k, memory, stats);
+    if (may_touch(*garment, layer, distance, box, clothes[k])) search(*this, k, memory, stats);
   }
 }
 

@@ -18,11 +18,14 @@ struct LayersAround {
   std::uint32_t begin = 0, end = 0;
 };
 
-/// Looks for pairs in a tick's first substep, and again where the cloths have moved against each other by more than a
-/// margin of 0.15 edges since. A pair that was there before keeps the side that it remembers.
+/// Looks for pairs anew where others are near than when it last did, or where the cloths have moved against each other
+/// by more than a margin of 0.15 edges since; until then the pairs stay as they are. What they move is added up tick by
+/// tick: cloth at rest looks for nothing. Where more than 16 cloths are near it looks in every substep. A pair that was
+/// there before keeps the side that it remembers.
 /// Reads:  garments; position (predicted), previous (P) m; clothes
-/// Writes: pairs; sought_at (P) m; t_sought; around; scratch; stats.contacts_dropped: pairs beyond the capacity
-/// Cost:   O(P + P of those near), when it looks O(P + E + F) of them, and once a tick O(clothes); no allocation.
+/// Writes: pairs; sought_at (P) m; sought; around; scratch; stats.contacts_dropped: pairs beyond the capacity
+/// Cost:   O(P + P of those near), when it looks O(P + E + F) of them, and once a tick O(clothes); no allocation. To be
+///         run in every substep of every tick in which one of those near moves.
 /// Errors: none.
 struct LayerCandidates {
   const Garment* garment = nullptr;
@@ -34,7 +37,7 @@ struct LayerCandidates {
   float distance = 0.0f;                // m, to be kept
   NearPairList pairs;                   // *pairs.count == kNone: there is nothing yet
   Vec3View sought_at;
-  float* t_sought = nullptr;       // the fraction of the tick for which the pairs were looked for
+  LayersSought* sought = nullptr;  // of these pairs
   LayersAround* around = nullptr;  // kept for the tick
   NearScratch* scratch = nullptr;
 

@@ -149,12 +149,14 @@ Vec3 mean_motion(ConstVec3View from, ConstVec3View to, std::uint32_t count) {
   return sum * (1.0f / static_cast<float>(count));
 }
 
-float largest_motion(const Vec3& mean, ConstVec3View from, ConstVec3View to, std::uint32_t count, float part) {
+float largest_motion(const Vec3& reference, ConstVec3View from, ConstVec3View to, std::uint32_t count, float part) {
   float most2 = 0.0f;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 d = (to[i] - from[i]) * part - mean;
-    most2 = std::max(most2, dot(d, d));
-  }
+  run_wide(widest_vectors(), [&] {
+    most2 = largest(count, [&](std::size_t i) {
+      const Vec3Lanes d = (load(to, i) - load(from, i)) * all(part) - all(reference);
+      return dot(d, d);
+    });
+  });
   return std::sqrt(most2);
 }
 

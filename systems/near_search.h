@@ -17,8 +17,9 @@ struct PosedCloth {
 float near_margin(const Garment& first, const Garment& second);
 /// The mean motion of particles, m.
 Vec3 mean_motion(ConstVec3View from, ConstVec3View to, std::uint32_t count);
-/// How far one moves at most against `mean` on a part of its way, m.
-float largest_motion(const Vec3& mean, ConstVec3View from, ConstVec3View to, std::uint32_t count, float part = 1.0f);
+/// How far one moves at most against `reference` on a part of its way, m.
+float largest_motion(const Vec3& reference, ConstVec3View from, ConstVec3View to, std::uint32_t count,
+                     float part = 1.0f);
 
 /// Puts the middles of a cloth's edges, m, into the scratch. Returns half of the longest edge's length, m.
 float file_middles(const PosedCloth& cloth, NearScratch& scratch);

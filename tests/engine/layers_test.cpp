@@ -146,6 +146,57 @@ TEST(Layers, SurviveComingAndGoingOfCloths) {
   EXPECT_EQ(scene.stats().nonfinite_restored, 0u);
 }
 
+/// Where the last cloth was when it last looked for pairs.
+std::vector<Vec3> sought_at(Scene& scene) {
+  const World& world = scene.inside();
+  const ClothRecord& last = world.clothes.back();
+  std::vector<Vec3> at;
+  for (std::uint32_t i = 0; i < last.garment().particle_count; ++i) {
+    at.push_back(world.layers.sought_at.view()[last.particle_begin + i]);
+  }
+  return at;
+}
+
+TEST(Layers, AtRestLookForNothing) {
+  Scene scene;
+  const pleat_garment garment = scene.sheet(9);
+  scene.sphere(0, -0.35f, 0, 0.3f);
+  const pleat_cloth lower = scene.cloth(garment, in_layer(1));
+  place(scene, scene.cloth(garment, in_layer(2)), 0.1f, 0.03f, 0.1f, 0.4f);
+  scene.step(300);
+  const std::vector<Vec3> before = sought_at(scene);
+  scene.step(20);
+  EXPECT_EQ(sought_at(scene), before);
+  place(scene, lower, 0, 0, 0, 0);  // where it is: what the upper one knows of it is forgotten
+  scene.step();
+  EXPECT_NE(sought_at(scene), before);
+  EXPECT_GT(scene.inside().clothes.back().layer_pair_count, 100u);
+}
+
+TEST(Layers, GoOnFromASavedStateBitByBit) {
+  Scene scene;
+  const pleat_garment garment = scene.sheet(9);
+  scene.sphere(0, -0.35f, 0, 0.3f);
+  scene.cloth(garment, in_layer(1));
+  const pleat_cloth upper = scene.cloth(garment, in_layer(2));
+  place(scene, upper, 0.1f, 0.03f, 0.1f, 0.4f);
+  for (const int tick : {20, 60, 200}) {
+    scene.step(tick);
+    std::uint64_t bytes = 0;
+    must(call::world_state_size(scene, &bytes));
+    std::vector<char> state(bytes);
+    must(call::world_save(scene, state.data(), bytes));
+    scene.step(40);
+    const std::vector<float> expected = scene.particles(upper);
+    const std::vector<Vec3> expected_sought_at = sought_at(scene);
+    scene.step(15);  // pairs are others then
+    must(call::world_load(scene, state.data(), bytes));
+    scene.step(40);
+    EXPECT_TRUE(same_bits(scene.particles(upper), expected)) << tick;
+    EXPECT_EQ(sought_at(scene), expected_sought_at) << tick;
+  }
+}
+
 /// Of the last cloth's pairs with the one at `position`, those whose side is known.
 std::size_t known_sides(Scene& scene, std::uint32_t position) {
   const World& world = scene.inside();
