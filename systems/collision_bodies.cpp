@@ -57,7 +57,7 @@ struct MeshTree {
     tree.build(&boxes, true, to_bullet(bounds.low), to_bullet(bounds.high));
     std::vector<std::uint32_t> order;
     const QuantizedNodeArray& nodes = tree.getQuantizedNodeArray();
-    for (int n = 0; n < nodes.size(); ++n) {
+    for (int n = 0; order.size() < count; ++n) {  // behind the last leaf is room that holds none
       if (nodes[n].isLeafNode()) order.push_back(static_cast<std::uint32_t>(nodes[n].getTriangleIndex()));
     }
     wide.build(order.data(), order.size());

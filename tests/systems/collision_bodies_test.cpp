@@ -56,6 +56,26 @@ TEST(CollisionBodies, FindsEveryEnabledCapsuleThroughMovesAndRemovals) {
   }
 }
 
+TEST(CollisionBodies, TheTreeOfTrianglesHasEachOnceInTheOrderOfBulletsTree) {
+  for (const std::uint32_t detail : {0u, 1u, 3u}) {
+    const BodyShape sphere = icosphere(detail, 1.0f);
+    MeshCollider mesh = make_body(sphere.positions, sphere.triangles);
+    CollisionBodies bodies(memory());
+    bodies.add_mesh(mesh);
+    std::vector<std::uint32_t> found, expected;
+    bodies.for_each_triangle(0, {{-2, -2, -2}, {2, 2, 2}}, [&](std::uint32_t t) { expected.push_back(t); });
+    const BoxTree& tree = bodies.triangle_boxes(0);
+    const auto all_near = [](const BoxLanes& boxes) PLEAT_KERNEL_LAMBDA { return boxes.low.x <= boxes.high.x; };
+    tree.for_each(all_near, [&](std::uint32_t leaf, std::uint32_t some) PLEAT_KERNEL_LAMBDA {
+      for (std::uint32_t k = 0; k < kLanes; ++k) {
+        if ((some >> k & 1) != 0) found.push_back(tree.items(leaf)[k]);
+      }
+    });
+    EXPECT_EQ(found.size(), mesh.triangles.size() / 3);
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(CollisionBodies, FindsEveryTriangleAlongItsSweep) {
   const BodyShape sphere = icosphere(3, 1.0f);
   MeshCollider mesh = make_body(sphere.positions, sphere.triangles);
