@@ -6,6 +6,7 @@
 
 #include "components/creases.h"
 #include "components/edge_order.h"
+#include "components/face_clusters.h"
 #include "components/hinge_stiffness.h"
 #include "components/rest_curve.h"
 #include "components/tethers.h"
@@ -181,6 +182,8 @@ Garment::Garment(std::pmr::memory_resource* m)
       face_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_edge{Column<std::uint32_t>(m), Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       face_rest_area(m),
+      clustered_faces(m),
+      cluster_end(m),
       edge_particle{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_face{Column<std::uint32_t>(m), Column<std::uint32_t>(m)},
       edge_rest_length(m),
@@ -210,6 +213,7 @@ Garment build_garment(const GarmentInput& input, std::pmr::memory_resource* memo
   Garment garment(memory);
   add_particles(input, garment);
   add_faces(input, garment);
+  find_face_clusters(garment);
   gather_strays(garment);
   add_edges(input, garment);
   add_hinges(garment);

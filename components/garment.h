@@ -38,6 +38,8 @@ struct Garment {
   // Faces (F). Edge k of a face joins its corners k and (k + 1) % 3.
   Column<std::uint32_t> face_particle[3], face_edge[3];
   Column<float> face_rest_area;  // m2
+  // All faces by clusters of those that lie together (face_clusters.h), and where in that list each cluster ends.
+  Column<std::uint32_t> clustered_faces, cluster_end;
 
   // Edges (E), each once, in the order in which they are solved (edge_order.h); first particle < second.
   Column<std::uint32_t> edge_particle[2];

@@ -260,6 +260,7 @@ constexpr Row kRows[] = {
        World& w = t.world;
        run(MeshDetection{.garment = &t.garment,
                          .position = t.position,
+                         .packed = t.worker.packed.position.data(),
                          .previous = t.previous,
                          .inverse_mass = t.inverse_mass,
                          .origin = t.cloth.origin,

@@ -54,9 +54,10 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
   worker.capsule_candidates.make_room(g, worker.capsule_poses.size());
   if (!world.meshes.empty()) {
-    at_least(worker.mesh_candidates.pairs, kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
-    at_least(worker.mesh_candidates.anchor, g.particle_count);
-    at_least(worker.mesh_candidates.drift, g.particle_count);
+    std::size_t most_vertices = 0;
+    for (const MeshRecord& body : world.meshes) most_vertices = std::max(most_vertices, body.mesh.next.size());
+    worker.mesh_candidates.make_room(g.particle_count, world.meshes.size(), most_vertices,
+                                     kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
   }
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
     if (!world.meshes.empty()) at_least(worker.footprint, pattern->vertex_count);

@@ -96,6 +96,7 @@ struct CollisionBodies::Trees {
   btDbvt capsules;
   std::vector<btDbvtNode*> leaves;  // one a capsule, null where it is disabled
   std::vector<std::unique_ptr<MeshTree>> meshes;
+  std::uint64_t revision = 0;  // of the meshes
 };
 
 CollisionBodies::CollisionBodies(std::pmr::memory_resource* memory) : trees_(std::make_unique<Trees>()) {
@@ -131,15 +132,21 @@ void CollisionBodies::update_capsules(const CapsuleColumns& capsules) {
 
 void CollisionBodies::add_mesh(const MeshCollider& mesh) {
   trees_->meshes.push_back(std::make_unique<MeshTree>(mesh, trees_->memory));
+  ++trees_->revision;
 }
 
 void CollisionBodies::remove_mesh(std::size_t index) {
   trees_->meshes.erase(trees_->meshes.begin() + static_cast<std::ptrdiff_t>(index));
+  ++trees_->revision;
 }
 
-void CollisionBodies::update_mesh(std::size_t index, const MeshCollider& mesh) { trees_->meshes[index]->refit(mesh); }
+void CollisionBodies::update_mesh(std::size_t index, const MeshCollider& mesh) {
+  trees_->meshes[index]->refit(mesh);
+  ++trees_->revision;
+}
 
 std::size_t CollisionBodies::mesh_count() const { return trees_->meshes.size(); }
+std::uint64_t CollisionBodies::revision() const { return trees_->revision; }
 const BodyTopology& CollisionBodies::topology(std::size_t mesh) const { return trees_->meshes[mesh]->topology; }
 const Box& CollisionBodies::swept_box(std::size_t mesh) const { return trees_->meshes[mesh]->bounds; }
 const BoxTree& CollisionBodies::triangle_boxes(std::size_t mesh) const { return trees_->meshes[mesh]->wide; }

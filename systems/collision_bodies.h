@@ -34,6 +34,8 @@ class CollisionBodies {
   void update_mesh(std::size_t index, const MeshCollider& mesh);
 
   std::size_t mesh_count() const;
+  /// Another one whenever a mesh was added, removed or updated.
+  std::uint64_t revision() const;
   const BodyTopology& topology(std::size_t mesh) const;
   const Box& swept_box(std::size_t mesh) const;
   /// Of the triangles, with the boxes they sweep, in the order in which for_each_triangle comes to them.

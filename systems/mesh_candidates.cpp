@@ -1,104 +1,249 @@
 #include "systems/mesh_candidates.h"
 
+#include <bit>
+#include <utility>
+
 #include "systems/contact_row.h"
 #include "systems/mesh_pose.h"
 
 namespace pleat {
 namespace {
 
-constexpr float kSlack = 0.01f;     // m off its predicted path that a particle may be
+// m off its predicted path that a particle may be: twice as much as before where it was not enough, in time less.
+constexpr float kLeastSlack = 0.005f, kMostSlack = 0.04f, kSlackKept = 0.9f;
 constexpr float kRounding = 1e-5f;  // m
+
+/// A face of the cloth, and around it what is wanted of the body as it moves against the face.
+struct FaceAround {
+  std::uint32_t index = 0;
+  bool owns_particle[3], owns_edge[3];
+  Vec3 x, normal;                                  // of a corner, m
+  Vec3 drift;                                      // until the tick ends, m
+  float slack = 0.0f;                              // m by which a point may come nearer than the drifts tell
+  Box around, around_particle[3], around_edge[3];  // all that is wanted
+  Box seen;                                        // around all of these
+};
+
+struct BoxLanes {
+  Vec3Lanes low, high;
+
+  PLEAT_KERNEL BoxLanes with(const BoxLanes& b) const {
+    return {{min(low.x, b.low.x), min(low.y, b.low.y), min(low.z, b.low.z)},
+            {max(high.x, b.high.x), max(high.y, b.high.y), max(high.z, b.high.z)}};
+  }
+  PLEAT_KERNEL LaneMask overlap(const Box& b) const {
+    return (low.x <= b.high.x) & (low.y <= b.high.y) & (low.z <= b.high.z) & (high.x >= b.low.x) & (high.y >= b.low.y) &
+           (high.z >= b.low.z);
+  }
+};
+
+MeshSought sought_of(const MeshCollider& mesh) { return {mesh.enabled, mesh.thickness, mesh.depth}; }
 
 /// Collects the candidates of one mesh.
 struct Gatherer {
   const MeshCandidates& in;
-  MeshPose pose;
-  std::uint32_t mesh;
-  float reach, search;  // m; of features, and of particles that start deep
+  const MeshCollider& mesh;
+  const BodyTopology& topology;
+  std::uint32_t number;  // of the mesh
+  float reach, search;   // m; of features, and of particles that start deep
 
-  void gather_face(std::uint32_t face) const {
-    Face f;
-    Vec3 drift[3];
+  /// Of faces that lie together.
+  void gather(const std::uint32_t* begin, const std::uint32_t* end) const {
     Box swept;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t i = in.garment->face_particle[c][face];
-      f.x[c] = in.position[i];
-      drift[c] = in.candidates->drift.view()[i] * (1.0f - in.t1);
-      swept.include(f.x[c]);
-      swept.include(f.x[c] + drift[c]);
+    float slack = 0.0f;
+    for (const std::uint32_t* face = begin; face != end; ++face) {
+      for (const auto& particle : in.garment->face_particle) {
+        const std::uint32_t i = particle[*face];
+        swept.include(in.position[i]);
+        swept.include(in.position[i] + drift(i));
+        slack = std::max(slack, in.candidates->slack[i]);
+      }
     }
-    f.own = features_of_face(*in.garment, in.inverse_mass, face);
-    f.drift = (drift[0] + drift[1] + drift[2]) * (1.0f / 3.0f);
-    float spread2 = 0.0f;
-    for (const Vec3& d : drift) spread2 = std::max(spread2, dot(d - f.drift, d - f.drift));
-    f.slack = kSlack + kRounding + 2.0f * pose.mesh.bow + std::sqrt(spread2);
-    for (std::size_t c = 0; c < 3; ++c) {
-      f.around.include(f.x[c]);
-      f.around_particle[c] = Box{f.x[c], f.x[c]}.grown(search + f.slack);
-      f.around_edge[c].include(f.x[c]);
-      f.around_edge[c].include(f.x[(c + 1) % 3]);
-      f.around_edge[c] = f.around_edge[c].grown(reach + f.slack);
-    }
-    f.around = f.around.grown(reach + f.slack);
-    f.normal = normalized_or(cross(f.x[1] - f.x[0], f.x[2] - f.x[0]), Vec3{});
-    const Box box = swept.grown(search + kSlack + kRounding);
-    if (!box.moved(in.origin).overlaps(in.bodies->swept_box(mesh))) return;
-    in.bodies->for_each_triangle(mesh, box.moved(in.origin), [&](std::uint32_t t) { consider(f, face, t); });
+    swept = swept.grown(search + slack + kRounding).moved(in.origin);
+    if (!swept.overlaps(in.bodies->swept_box(number))) return;
+    MeshCandidateColumns& out = *in.candidates;
+    out.blocks.count = 0;
+    std::uint32_t count = 0;
+    in.bodies->for_each_triangle(number, swept, [&](std::uint32_t t) {
+      if (count / kLanes == out.blocks.room.size()) {
+        out.complete = false;
+      } else {
+        out.blocks.room[count / kLanes].triangle[count % kLanes] = t;
+        ++count;
+      }
+    });
+    if (count == 0 || !out.complete) return;
+    for (; count % kLanes != 0; ++count) out.blocks.room[count / kLanes].triangle[count % kLanes] = kNoTriangle;
+    out.blocks.count = count / kLanes;
+    run_wide(widest_vectors(), [&] {
+      for (std::uint32_t b = 0; b < out.blocks.count; ++b) place(out.blocks.room[b]);
+    });
+    for (const std::uint32_t* face = begin; face != end && out.complete; ++face) gather_face(*face);
   }
 
  private:
-  struct Face {
-    Vec3 x[3];
-    Vec3 normal, drift;
-    float slack = 0.0f;                              // m by which a point may come nearer than the drifts tell
-    Box around, around_particle[3], around_edge[3];  // all that is wanted
-    std::uint32_t own = 0;
-  };
+  /// Of a particle, until the tick ends, m.
+  Vec3 drift(std::uint32_t i) const { return in.candidates->drift.view()[i] * (1.0f - in.t1); }
 
-  void consider(const Face& f, std::uint32_t face, std::uint32_t t) const {
-    // The triangle now and at the end of the tick, as seen from the drifting face.
-    Vec3 now[3], then[3];
-    float low = 1e30f, high = -1e30f;
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = pose.corner(t, k);
-      now[k] = pose.vertex(v);
-      then[k] = pose.next_vertex(v) - f.drift;
-      for (const Vec3& p : {now[k], then[k]}) {
-        const float height = dot(p - f.x[0], f.normal);
-        low = std::min(low, height);
-        high = std::max(high, height);
+  FaceAround measure(std::uint32_t face) const {
+    const Garment& g = *in.garment;
+    FaceAround f;
+    f.index = face;
+    Vec3 x[3], drifts[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t i = g.face_particle[c][face];
+      x[c] = in.position[i];
+      drifts[c] = drift(i);
+      f.slack = std::max(f.slack, in.candidates->slack[i]);
+      f.owns_particle[c] = owns_particle(g, in.inverse_mass, face, c);
+      f.owns_edge[c] = owns_edge(g, face, c);
+    }
+    f.drift = (drifts[0] + drifts[1] + drifts[2]) * (1.0f / 3.0f);
+    float spread2 = 0.0f;
+    for (const Vec3& d : drifts) spread2 = std::max(spread2, dot(d - f.drift, d - f.drift));
+    f.slack += kRounding + 2.0f * mesh.bow + std::sqrt(spread2);
+    for (std::size_t c = 0; c < 3; ++c) {
+      f.around.include(x[c]);
+      f.around_particle[c] = Box{x[c], x[c]}.grown(search + f.slack);
+      f.around_edge[c].include(x[c]);
+      f.around_edge[c].include(x[(c + 1) % 3]);
+      f.around_edge[c] = f.around_edge[c].grown(reach + f.slack);
+    }
+    f.around = f.around.grown(reach + f.slack);
+    f.seen = f.around;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (f.owns_particle[c]) f.seen = f.seen.with(f.around_particle[c]);
+    }
+    f.x = x[0];
+    f.normal = normalized_or(cross(x[1] - x[0], x[2] - x[0]), Vec3{});
+    return f;
+  }
+
+  void gather_face(std::uint32_t face) const {
+    MeshCandidateColumns& out = *in.candidates;
+    const FaceAround f = measure(face);
+    std::uint32_t count = 0;
+    run_wide(widest_vectors(), [&] {
+      for (std::uint32_t b = 0; b < out.blocks.count; ++b) {
+        MeshHits hits;
+        if (!find_near(f, out.blocks.room[b], hits)) continue;
+        hits.block = b;
+        out.hits[count++] = hits;
+      }
+    });
+    const std::span<const MeshHits> hits{out.hits.data(), count};
+    bool room = true;
+    const auto pose = [&](std::uint32_t v) {
+      if (out.is_posed[v] != 0) return;
+      out.is_posed[v] = out.posed.add(v) ? 1 : 0;
+      room = room && out.is_posed[v] != 0;
+    };
+    const auto for_each = [&](const auto& near, const auto& add) {
+      for (const MeshHits& h : hits) {
+        for (std::uint32_t some = near(h); some != 0; some &= some - 1) {
+          add(out.blocks.room[h.block].triangle[std::countr_zero(some)]);
+        }
+      }
+    };
+    const auto vertex = [&](std::uint32_t t, std::uint32_t k) { return mesh.triangles[3 * t + k]; };
+    // Feature by feature, so that the order of pairs does not depend on what else is in the lists.
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      if (!f.owns_particle[c]) continue;
+      for_each([&](const MeshHits& h) { return h.particle[c]; },
+               [&](std::uint32_t t) {
+                 for (std::uint32_t k = 0; k < 3; ++k) pose(vertex(t, k));
+                 room = out.particles.add({3 * face + c, t}) && room;
+               });
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      for_each([&](const MeshHits& h) { return h.vertex[k]; },
+               [&](std::uint32_t t) {
+                 if (!topology.owns_corner(t, static_cast<int>(k))) return;
+                 pose(vertex(t, k));
+                 room = out.vertices.add({face, vertex(t, k)}) && room;
+               });
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        if (!f.owns_edge[c]) continue;
+        const auto end = [&](std::size_t e) { return in.garment->edge_particle[e][in.garment->face_edge[c][face]]; };
+        for_each([&](const MeshHits& h) { return h.edges[c][k]; },
+                 [&](std::uint32_t t) {
+                   if (!topology.owns_edge(t, static_cast<int>(k))) return;
+                   MeshEdgePair pair{{end(0), end(1)}, {}};
+                   if (!find_ridge(mesh, topology, t, static_cast<int>(k), pair.ridge)) return;
+                   for (const std::uint32_t v : pair.ridge.vertex) pose(v);
+                   room = out.edges.add(pair) && room;
+                 });
       }
     }
-    const float height = std::max(low, -high) - f.slack;
-    if (height > search) return;
-    std::uint32_t wanted = f.own & features_of_body(pose.topology, t);
-    if (height > reach) wanted &= MeshCandidate::kParticles;
-    // Box k: what edge k of the triangle sweeps.
-    Box corner[3], edge[3], all;
-    for (int k = 0; k < 3; ++k) {
-      corner[k].include(now[k]);
-      corner[k].include(then[k]);
-      all.include(now[k]);
-      all.include(then[k]);
+    out.complete = room;
+  }
+
+  /// Where the triangles of a block are. Lanes without one are near nothing.
+  PLEAT_KERNEL void place(MeshBlock& block) const {
+    const ConstVec3View previous = mesh.previous.view(), next = mesh.next.view();
+    const Vec3Lanes origin = all(in.origin);
+    constexpr float kNowhere = 1e30f;
+    BoxLanes now{all({kNowhere, kNowhere, kNowhere}), all({-kNowhere, -kNowhere, -kNowhere})}, then = now;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      std::uint32_t vertex[kLanes];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::uint32_t t = block.triangle[lane];
+        vertex[lane] = t == kNoTriangle ? 0 : mesh.triangles[3 * t + k];
+      }
+      const Vec3Lanes begin = gather_vertices(previous, vertex), end = gather_vertices(next, vertex);
+      block.now[k] = begin + (end - begin) * in.t1 - origin, block.then[k] = end - origin;
+      now = now.with({block.now[k], block.now[k]}), then = then.with({block.then[k], block.then[k]});
     }
-    for (int k = 0; k < 3; ++k) edge[k] = corner[k].with(corner[(k + 1) % 3]);
-    std::uint32_t near = 0;
-    for (; wanted != 0; wanted &= wanted - 1) {
-      const auto [kind, c, k] = MeshCandidate::first(wanted);
-      const bool meet = kind == MeshCandidate::Kind::kParticle ? f.around_particle[c].overlaps(all)
-                        : kind == MeshCandidate::Kind::kVertex ? f.around.overlaps(corner[k])
-                                                               : f.around_edge[c].overlaps(edge[k]);
-      if (meet) near |= wanted & (~wanted + 1);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (block.triangle[lane] == kNoTriangle) now.low.x[lane] = then.low.x[lane] = kNowhere;
     }
-    if (near == 0) return;
-    MeshCandidateColumns& out = *in.candidates;
-    if (out.count == out.pairs.size()) {
-      out.complete = false;
-    } else {
-      out.pairs[out.count++] = {mesh, face, t, near};
+    block.now_low = now.low, block.now_high = now.high, block.then_low = then.low, block.then_high = then.high;
+  }
+  static PLEAT_KERNEL Vec3Lanes gather_vertices(ConstVec3View from, const std::uint32_t* vertex) {
+    return pleat::gather(from, vertex);
+  }
+
+  /// False where none is near.
+  PLEAT_KERNEL bool find_near(const FaceAround& f, const MeshBlock& block, MeshHits& hits) const {
+    // The triangles as seen from the drifting face. Box k: what corner k sweeps.
+    const Vec3Lanes drift = all(f.drift);
+    const BoxLanes swept =
+        BoxLanes{block.now_low, block.now_high}.with({block.then_low - drift, block.then_high - drift});
+    const LaneMask seen = swept.overlap(f.seen);
+    if (!any(seen)) return false;
+    BoxLanes corner[3];
+    Lanes low = all(1e30f), high = all(-1e30f);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vec3Lanes now = block.now[k], then = block.then[k] - drift;
+      corner[k] = BoxLanes{now, now}.with({then, then});
+      const Lanes h = dot(now - all(f.x), all(f.normal)), g = dot(then - all(f.x), all(f.normal));
+      low = min(low, min(h, g)), high = max(high, max(h, g));
     }
+    const Lanes height = max(low, -high) - f.slack;
+    const LaneMask beside = seen & (height <= search);
+    if (!any(beside)) return false;
+    const LaneMask may_touch = beside & (height <= reach) & swept.overlap(f.around);
+    const BoxLanes edge[3] = {corner[0].with(corner[1]), corner[1].with(corner[2]), corner[2].with(corner[0])};
+    for (std::size_t c = 0; c < 3; ++c) {
+      hits.particle[c] = f.owns_particle[c] ? bits(beside & swept.overlap(f.around_particle[c])) : std::uint8_t{0};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      hits.vertex[k] = bits(may_touch & corner[k].overlap(f.around));
+      for (std::size_t c = 0; c < 3; ++c) {
+        hits.edges[c][k] = f.owns_edge[c] ? bits(may_touch & edge[k].overlap(f.around_edge[c])) : std::uint8_t{0};
+      }
+    }
+    return true;
   }
 };
+
+/// How far eight particles are off their predicted paths, squared, m2.
+PLEAT_KERNEL Lanes off_path2(const MeshCandidates& in, std::size_t i) {
+  const MeshCandidateColumns& then = *in.candidates;
+  const Vec3Lanes off =
+      load(in.position, i) - load(then.anchor.view(), i) - load(then.drift.view(), i) * (in.t1 - then.t_anchor);
+  return dot(off, off);
+}
 
 }  // namespace
 
@@ -106,46 +251,86 @@ bool MeshCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && velocity.x != nullptr &&
          inverse_mass != nullptr && bodies != nullptr && (meshes != nullptr || bodies->mesh_count() == 0) &&
          thickness >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f && candidates != nullptr &&
-         candidates->anchor.size() >= garment->particle_count && candidates->drift.size() >= garment->particle_count;
+         candidates->anchor.size() >= garment->particle_count && candidates->drift.size() >= garment->particle_count &&
+         candidates->ends.size() >= bodies->mesh_count();
 }
 
 void MeshCandidates::run() const {
   MeshCandidateColumns& out = *candidates;
   const std::uint32_t count = garment->particle_count;
   const float reach = thickness + contact_margin(position, previous, count);
-  const auto still_hold = [&] {
-    if (reach > out.reach) return false;
-    const ConstVec3View anchor = out.anchor.view(), drift = out.drift.view();
-    float off2 = 0.0f;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec3 off = position[i] - anchor[i] - drift[i] * (t1 - out.t_anchor);
-      off2 = std::max(off2, dot(off, off));
-    }
-    return off2 <= kSlack * kSlack;
-  };
   // Without room for all there is no point in trying again in the same tick.
-  if (t0 > 0.0f && (!out.complete || still_hold())) return;
+  if (t0 > 0.0f ? !out.complete || still_hold(reach) : out.outlast_tick && out.complete && still_hold(reach)) return;
 
+  adapt_slack();
   const float ticks = 1.0f / (t1 - t0) * dt;  // s, of the tick
-  Box box;
+  // What hardly moves is better looked for around where it is, and may still be there in ticks to come.
+  out.outlast_tick = t0 == 0.0f;
+  float most_slack = 0.0f;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 drift = velocity[i] * ticks;
+    out.outlast_tick = out.outlast_tick && length(drift) <= 0.5f * out.slack[i];
     out.anchor.view().set(i, position[i]);
     out.drift.view().set(i, drift);
-    box.include(position[i]);
-    box.include(position[i] + drift * (1.0f - t1));
+    most_slack = std::max(most_slack, out.slack[i]);
   }
+  if (out.outlast_tick) clear(out.drift.view(), count);
+  Box box;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    box.include(position[i]);
+    box.include(position[i] + out.drift.view()[i] * (1.0f - t1));
+  }
+  out.garment = garment, out.origin = origin, out.revision = bodies->revision();
   out.t_anchor = t1;
   out.reach = reach;
-  out.count = 0;
+  out.particles.count = out.vertices.count = out.edges.count = out.posed.count = 0;
   out.complete = true;
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     const MeshCollider& mesh = *meshes[m];
     const float mesh_reach = reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
-    if (!mesh.enabled || !box.grown(search + kSlack + kRounding).moved(origin).overlaps(bodies->swept_box(m))) continue;
-    const Gatherer gatherer{*this, {mesh, bodies->topology(m), t0, t1, origin}, m, mesh_reach, search};
-    for (std::uint32_t f = 0; f < garment->face_count && out.complete; ++f) gatherer.gather_face(f);
+    const std::uint32_t first = out.posed.count;
+    if (mesh.enabled && box.grown(search + most_slack + kRounding).moved(origin).overlaps(bodies->swept_box(m))) {
+      const Gatherer gatherer{*this, mesh, bodies->topology(m), m, mesh_reach, search};
+      const std::uint32_t* begin = garment->clustered_faces.data();
+      for (const std::uint32_t end : garment->cluster_end) {
+        if (out.complete) gatherer.gather(begin, garment->clustered_faces.data() + end);
+        begin = garment->clustered_faces.data() + end;
+      }
+    }
+    for (const std::uint32_t v : out.posed.between(first, out.posed.count)) out.is_posed[v] = 0;
+    out.ends[m] = out.so_far();
+    out.sought[m] = sought_of(mesh);
   }
+}
+
+bool MeshCandidates::still_hold(float reach) const {
+  const MeshCandidateColumns& in = *candidates;
+  if (in.garment != garment || in.origin != origin || in.revision != bodies->revision() || reach > in.reach)
+    return false;
+  for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
+    if (in.sought[m] != sought_of(*meshes[m])) return false;
+  }
+  float off2 = 0.0f;  // m2, more than the slack
+  run_wide(widest_vectors(), [&] {
+    off2 = largest(garment->particle_count, [&](std::size_t i) PLEAT_KERNEL_LAMBDA {
+      const Lanes slack = load(in.slack.data() + i);
+      return off_path2(*this, i) - slack * slack;
+    });
+  });
+  return off2 <= 0.0f;
+}
+
+void MeshCandidates::adapt_slack() const {
+  MeshCandidateColumns& out = *candidates;
+  const bool told = out.garment == garment && (t0 > 0.0f || out.outlast_tick);
+  run_wide(widest_vectors(), [&] {
+    for (std::size_t i = 0; i < garment->particle_count; i += kLanes) {
+      const Lanes slack = load(out.slack.data() + i);
+      const LaneMask short_of = (told ? LaneMask{} - 1 : LaneMask{}) & (off_path2(*this, i) > slack * slack);
+      store(max(all(kLeastSlack), min(all(kMostSlack), slack * (short_of ? all(2.0f) : all(kSlackKept)))),
+            out.slack.data() + i);
+    }
+  });
 }
 
 }  // namespace pleat

@@ -16,10 +16,12 @@
 namespace pleat {
 
 /// Fills `candidates` in the first substep of a tick, and again where a particle has left its predicted path by more
-/// than 10 mm or moves too fast for what was gathered; else it does nothing.
+/// than some mm or moves too fast for what was gathered; else it does nothing. Where bodies stand and the cloth hardly
+/// moves what was found holds in the ticks that follow too, where a worker has no other cloth.
 /// Reads:  garment edges, faces; position, previous (P) m; velocity (P) m/s; meshes and their trees
-/// Writes: candidates
-/// Cost:   O(P); when it gathers O(F log T + pairs); no allocation. Errors: none; see MeshCandidateColumns::complete.
+/// Writes: candidates, which have room for the vertices of each mesh
+/// Cost:   O(P + bodies); when it gathers O(F log T + pairs); no allocation. Errors: none; see
+/// MeshCandidateColumns::complete.
 struct MeshCandidates {
   const Garment* garment = nullptr;
   ConstVec3View position;  // predicted
@@ -36,6 +38,10 @@ struct MeshCandidates {
 
   bool validate() const;
   void run() const;
+
+ private:
+  bool still_hold(float reach) const;
+  void adapt_slack() const;
 };
 
 }  // namespace pleat

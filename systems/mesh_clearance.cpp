@@ -306,8 +306,9 @@ struct MeshTest {
     const Vec3 direction = on_face ? outward : normalized_or(away, Vec3{});
     if (at.zeros() == 2) {
       const std::uint32_t v = pose.corner(pairs.index[k], at.corner());
-      if (!touches && !pose.is_extreme(v, direction, kFlatSlope)) return;
-      outward = pose.vertex_normal(v);
+      const MeshPose::Ring ring = pose.look_around(v, direction, kFlatSlope);
+      if (!touches && !ring.stands_out(1.0f)) return;
+      outward = ring.normal;
     } else if (!on_face) {
       const std::uint32_t across = pose.topology.neighbour[3 * pairs.index[k] + static_cast<std::uint32_t>(at.edge())];
       if (across != kNoTriangle) {

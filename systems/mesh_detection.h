@@ -19,19 +19,20 @@ namespace pleat {
 /// Edges and faces leave out what another row says already, so that rows stay few on smooth bodies; but not what comes
 /// to matter when the sweeps turn an edge or a face by a slope of 0.2.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; meshes and their trees
-/// Writes: contacts, added to; stats.contacts_dropped
-/// Cost:   O(candidates), without them O(F log T + close pairs); no allocation. Errors: none; features without extent
-/// make finite rows or none.
+/// Writes: contacts, added to; stats.contacts_dropped; scratch of the candidates
+/// Cost:   O(candidates), without them many times O(F log T + close pairs); no allocation. Errors: none; features
+/// without extent make finite rows or none.
 struct MeshDetection {
   const Garment* garment = nullptr;
-  ConstVec3View position;  // predicted
-  ConstVec3View previous;  // when the substep began
+  ConstVec3View position;        // predicted
+  const Vec4* packed = nullptr;  // the same
+  ConstVec3View previous;        // when the substep began
   const float* inverse_mass = nullptr;
   Vec3 origin{};  // of positions, m in the world
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
-  /// Null or incomplete: the trees are asked instead, the rows are the same.
-  const MeshCandidateColumns* candidates = nullptr;
+  /// Null or incomplete: the trees are asked instead, the rows are the same and in the same order.
+  MeshCandidateColumns* candidates = nullptr;
   float t0 = 0.0f, t1 = 1.0f;
   float thickness = 0.0f;  // m
   float friction = 0.0f;

@@ -1,17 +1,57 @@
 #include "systems/mesh_pose.h"
 
-namespace pleat {
+#include <numbers>
 
-Vec3 MeshPose::vertex_normal(std::uint32_t v) const {
-  Vec3 sum;
-  for (std::uint32_t r = topology.ring_begin[v]; r < topology.ring_begin[v + 1]; ++r) {
-    const std::uint32_t triangle = topology.ring[r];
-    const int k = corner(triangle, 0) == v ? 0 : corner(triangle, 1) == v ? 1 : 2;
-    const Corners at = corners(triangle);
-    const Vec3 u = at[(k + 1) % 3] - at[k], w = at[(k + 2) % 3] - at[k], area = cross(u, w);
-    sum += normalized_or(area, Vec3{}) * std::atan2(length(area), dot(u, w));
-  }
-  return sum;
+#include "components/lanes.h"
+
+namespace pleat {
+namespace {
+
+/// atan2(y, x) of y >= 0, within 1e-5 (M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 4.4.49).
+PLEAT_KERNEL Lanes angle_of(const Lanes& y, const Lanes& x) {
+  constexpr float kPi = std::numbers::pi_v<float>, kLeast = 1e-37f;
+  const Lanes wide = abs(x), most = max(max(y, wide), all(kLeast)), t = min(y, wide) / most, t2 = t * t;
+  const Lanes flat = t * (.9998660f + t2 * (-.3302995f + t2 * (.1801410f + t2 * (-.0851330f + t2 * .0208351f))));
+  const Lanes acute = y > wide ? .5f * kPi - flat : flat;
+  return x < 0.0f ? kPi - acute : acute;
+}
+
+}  // namespace
+
+MeshPose::Ring MeshPose::look_around(std::uint32_t v, const Vec3& direction, float tolerance) const {
+  Ring ring{};
+  run_wide(widest_vectors(), [&] {
+    const Vec3Lanes at = all(vertex(v)), up = all(direction);
+    Vec3Lanes normals{};
+    LaneMask rises{}, falls{};
+    const std::uint32_t last = topology.ring_begin[v + 1];
+    for (std::uint32_t r = topology.ring_begin[v]; r < last; r += kLanes) {
+      Vec3Lanes side[2];
+      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+        const std::uint32_t* t = mesh.triangles.data() + 3 * std::size_t{topology.ring[std::min(r + lane, last - 1)]};
+        const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        for (std::size_t s = 0; s < 2; ++s) {
+          const Vec3 p = vertex(t[(k + 1 + s) % 3]);
+          side[s].x[lane] = p.x, side[s].y[lane] = p.y, side[s].z[lane] = p.z;
+        }
+      }
+      for (Vec3Lanes& d : side) {
+        d = d - at;
+        const Lanes rise = dot(d, up);
+        const LaneMask steep = rise * rise > tolerance * tolerance * dot(d, d);
+        rises |= steep & (rise > 0.0f), falls |= steep & (rise < 0.0f);
+      }
+      const Vec3Lanes area = cross(side[0], side[1]);
+      const Lanes size = length(area), angle = angle_of(size, dot(side[0], side[1]));
+      const LaneMask counts = first_lanes(last - r) & (size > 1e-12f);
+      normals += area * (counts ? angle / (counts ? size : all(1.0f)) : Lanes{});
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      ring.normal += Vec3{normals.x[lane], normals.y[lane], normals.z[lane]};
+    }
+    ring.rises = any(rises), ring.falls = any(falls);
+  });
+  return ring;
 }
 
 Vec3 MeshPose::edge_normal(std::uint32_t triangle, int k) const {
@@ -21,23 +61,11 @@ Vec3 MeshPose::edge_normal(std::uint32_t triangle, int k) const {
 }
 
 MeshPose::Outward MeshPose::outward(std::uint32_t triangle, const Barycentrics& at) const {
-  if (at.zeros() == 2) return {vertex_normal(corner(triangle, at.corner())), false, false};
+  if (at.zeros() == 2) return {look_around(corner(triangle, at.corner()), {}, 0.0f).normal, false, false};
   if (at.zeros() == 0) return {corners(triangle).normal(), true, false};
   const int k = at.edge();
   const bool border = topology.neighbour[3 * triangle + static_cast<std::uint32_t>(k)] == kNoTriangle;
   return {edge_normal(triangle, k), false, border};
-}
-
-bool MeshPose::is_extreme(std::uint32_t v, const Vec3& normal, float tolerance) const {
-  const Vec3 at = vertex(v);
-  for (std::uint32_t r = topology.ring_begin[v]; r < topology.ring_begin[v + 1]; ++r) {
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 d = vertex(corner(topology.ring[r], k)) - at;
-      const float rise = dot(d, normal);
-      if (rise > 0.0f && rise * rise > tolerance * tolerance * dot(d, d)) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace pleat

@@ -14,28 +14,27 @@ inline float mesh_search(const MeshCollider& mesh, float reach, float t0) {
   return t0 == 0.0f ? std::max(reach, mesh.depth) : reach;
 }
 
-/// The features that are measured as part of this face or of this triangle: each is of one of those around it only, and
-/// pinned particles are of none.
-inline std::uint32_t features_of_face(const Garment& garment, const float* inverse_mass, std::uint32_t face) {
-  std::uint32_t own = MeshCandidate::vertex(0) | MeshCandidate::vertex(1) | MeshCandidate::vertex(2);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::uint32_t i = garment.face_particle[c][face];
-    if (garment.faces_around[garment.around_begin[i]] == face && inverse_mass[i] > 0.0f) {
-      own |= MeshCandidate::particle(c);
-    }
-    if (garment.edge_face[0][garment.face_edge[c][face]] != face) continue;
-    for (int k = 0; k < 3; ++k) own |= MeshCandidate::edges(c, k);
-  }
-  return own;
+/// Features of a cloth are measured as part of one of the faces around them, and pinned particles as part of none.
+inline bool owns_particle(const Garment& garment, const float* inverse_mass, std::uint32_t face, std::size_t c) {
+  const std::uint32_t i = garment.face_particle[c][face];
+  return garment.faces_around[garment.around_begin[i]] == face && inverse_mass[i] > 0.0f;
 }
-inline std::uint32_t features_of_body(const BodyTopology& topology, std::uint32_t triangle) {
-  std::uint32_t own = MeshCandidate::kParticles;
-  for (int k = 0; k < 3; ++k) {
-    if (topology.owns_corner(triangle, k)) own |= MeshCandidate::vertex(k);
-    if (!topology.owns_edge(triangle, k)) continue;
-    for (std::size_t c = 0; c < 3; ++c) own |= MeshCandidate::edges(c, k);
+inline bool owns_edge(const Garment& garment, std::uint32_t face, std::size_t c) {
+  return garment.edge_face[0][garment.face_edge[c][face]] == face;
+}
+
+/// Edge k of a triangle; false at a border, over which it cannot be told what is outside.
+inline bool find_ridge(const MeshCollider& mesh, const BodyTopology& topology, std::uint32_t triangle, int k,
+                       Ridge& ridge) {
+  const auto corner = [&](std::uint32_t t, int c) { return mesh.triangles[3 * t + static_cast<std::uint32_t>(c)]; };
+  const std::uint32_t across = topology.neighbour[3 * triangle + static_cast<std::uint32_t>(k)];
+  if (across == kNoTriangle) return false;
+  const std::uint32_t a = corner(triangle, k), b = corner(triangle, (k + 1) % 3);
+  ridge = {{a, b, corner(triangle, (k + 2) % 3), a}};
+  for (int c = 0; c < 3; ++c) {
+    if (corner(across, c) != a && corner(across, c) != b) ridge.vertex[3] = corner(across, c);
   }
-  return own;
+  return true;
 }
 
 struct MeshPose {
@@ -87,10 +86,19 @@ struct MeshPose {
     return {vertex(corner(triangle, 0)), vertex(corner(triangle, 1)), vertex(corner(triangle, 2))};
   }
 
-  /// Sum of the normals around a vertex, each by the angle of its triangle there: for a point whose nearest point of
-  /// the body is this vertex, the sign of the dot product tells inside from outside. Not of unit length.
-  Vec3 vertex_normal(std::uint32_t v) const;
-  /// The same for edge k of a triangle: the sum of its two triangles' normals.
+  /// A vertex and the triangles around it.
+  struct Ring {
+    /// Sum of their normals, each by the angle of its triangle there, within 1e-5: for a point whose nearest point of
+    /// the body is this vertex, the sign of the dot product tells inside from outside. Not of unit length.
+    Vec3 normal;
+    bool rises, falls;  // a neighbour stands out further than the vertex in a direction; against it
+
+    /// None does, along it or, side -1, against it.
+    bool stands_out(float side) const { return side < 0.0f ? !falls : !rises; }
+  };
+  /// direction: unit. What stands out by no more than a slope of `tolerance` does not count.
+  Ring look_around(std::uint32_t v, const Vec3& direction, float tolerance) const;
+  /// For edge k of a triangle: the sum of its two triangles' normals.
   Vec3 edge_normal(std::uint32_t triangle, int k) const;
   /// The side of a point whose nearest point of the body is `at` on a triangle.
   struct Outward {
@@ -99,8 +107,6 @@ struct MeshPose {
     bool border;   // on an edge without a second triangle: nobody can tell
   };
   Outward outward(std::uint32_t triangle, const Barycentrics& at) const;
-  /// No neighbour of v stands out further than v in the direction of `normal`, up to a slope of `tolerance`.
-  bool is_extreme(std::uint32_t v, const Vec3& normal, float tolerance) const;
 };
 
 }  // namespace pleat

@@ -9,8 +9,8 @@ cmake_minimum_required(VERSION 3.22)
 
 # What systems share: no systems themselves.
 set(shared_by_systems angle body_topology box box_tree capsule_lanes capsule_rows capsule_shape clearance_list close_pairs
-    closeness closest_points collision_bodies collision_hull contact_row edge_limit edge_pass facing mesh_pose
-    near_search point_grid rigid_fit triangle_pairs)
+    closeness closest_points collision_bodies collision_hull contact_row edge_limit edge_pass facing mesh_facing
+    mesh_pairs mesh_pose near_search point_grid rigid_fit triangle_pairs)
 
 set(faults "")
 macro(fault text)

@@ -67,6 +67,7 @@ void detect(ContactCloth& cloth, const MeshCollider& body) {
   Stats stats;
   MeshDetection{&cloth.garment,
                 cloth.position.view(),
+                cloth.packed_position(),
                 cloth.previous.view(),
                 cloth.inverse_mass.data(),
                 {},
