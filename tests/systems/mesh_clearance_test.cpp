@@ -245,7 +245,8 @@ std::vector<std::vector<ClearancePlane>> plain_planes(const Sagging& s) {
         const float distance = length(away);
         if (distance >= limit) continue;
         const Vec3 direction = normalized_or(away, Vec3{});
-        if (pair.second.zeros() == 2 && !pose.is_extreme(pose.corner(b, pair.second.corner()), direction, 0.02f)) {
+        if (pair.second.zeros() == 2 &&
+            !pose.look_around(pose.corner(b, pair.second.corner()), direction, 0.02f).stands_out(1.0f)) {
           continue;
         }
         if (pair.second.zeros() == 1) {
