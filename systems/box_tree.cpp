@@ -43,11 +43,11 @@ void BoxTree::build(const std::uint32_t* order, std::size_t count) {
   std::fill(nodes_.begin(), nodes_.end(), BoxLanes{});
 }
 
-void BoxTree::refit(const float* boxes) {
+void BoxTree::fit_around_leaves() {
+  BoxLanes& last = nodes_[begin_[1] - 1];
+  const BoxLanes empty;
+  for (std::size_t lane = count_ - kLanes * (begin_[1] - 1); lane < kLanes; ++lane) set_around(last, lane, empty);
   run_wide(widest_vectors(), [&] {
-    for (std::size_t i = 0; i < count_; ++i) {
-      set(nodes_[i / kLanes], i % kLanes, boxes + 6 * std::size_t{order_[i]});
-    }
     for (std::size_t level = 1; level < levels_; ++level) {
       const std::size_t count = begin_[level] - begin_[level - 1];
       for (std::size_t i = 0; i < count; ++i) {
@@ -55,6 +55,17 @@ void BoxTree::refit(const float* boxes) {
       }
     }
   });
+}
+
+Box BoxTree::bounds() const {
+  const BoxLanes& root = nodes_[begin_[levels_ - 1]];
+  Box box;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const Vec3 low{root.low.x[lane], root.low.y[lane], root.low.z[lane]};
+    const Vec3 high{root.high.x[lane], root.high.y[lane], root.high.z[lane]};
+    if (low.x <= high.x) box = box.with({low, high});
+  }
+  return box;
 }
 
 }  // namespace pleat

@@ -6,6 +6,7 @@
 
 #include "components/column.h"
 #include "components/lanes.h"
+#include "systems/box.h"
 
 namespace pleat {
 
@@ -13,6 +14,10 @@ namespace pleat {
 struct BoxLanes {
   Vec3Lanes low{all({1e30f, 1e30f, 1e30f})}, high{all({-1e30f, -1e30f, -1e30f})};  // m
 
+  PLEAT_KERNEL BoxLanes with(const BoxLanes& b) const {
+    return {{min(low.x, b.low.x), min(low.y, b.low.y), min(low.z, b.low.z)},
+            {max(high.x, b.high.x), max(high.y, b.high.y), max(high.z, b.high.z)}};
+  }
   PLEAT_KERNEL BoxLanes moved(const Vec3Lanes& by) const { return {low + by, high + by}; }
   PLEAT_KERNEL BoxLanes grown(const Lanes& by) const {
     return {{low.x - by, low.y - by, low.z - by}, {high.x + by, high.y + by, high.z + by}};
@@ -30,8 +35,16 @@ class BoxTree {
 
   /// order: of items, each once; at most 8^kMostLevels.
   void build(const std::uint32_t* order, std::size_t count);
-  /// boxes: low and high of each item, six floats, m.
-  void refit(const float* boxes);
+  /// boxes_of(items): a kernel, the boxes of a leaf's eight, m.
+  template <class BoxesOf>
+  void refit(const BoxesOf& boxes_of) {
+    run_wide(widest_vectors(), [&] {
+      for (std::uint32_t leaf = 0; leaf < begin_[1]; ++leaf) nodes_[leaf] = boxes_of(items(leaf));
+    });
+    fit_around_leaves();
+  }
+  /// Around all items.
+  Box bounds() const;
 
   /// visit(leaf, items) for those whose boxes and all around them are near, in the order given at the start: a bit for
   /// each of the leaf's items. near(boxes): a mask.
@@ -59,6 +72,8 @@ class BoxTree {
   const std::uint32_t* items(std::uint32_t leaf) const { return order_.data() + std::size_t{leaf} * kLanes; }
 
  private:
+  void fit_around_leaves();
+
   static constexpr std::size_t kMostLevels = 8;
   Column<std::uint32_t> order_;                                    // of the items in the leaves
   Column<BoxLanes> nodes_;                                         // those that hold items first, the root last

@@ -1,5 +1,6 @@
-// The bodies in Bullet's trees: which capsules and which triangles are near a box. It owns all Bullet objects;
-// questions are read-only, so any number of threads may ask at a time.
+// The bodies in trees: which capsules (Bullet's dynamic tree) and which triangles (in the order of Bullet's tree over a
+// mesh, box_tree.h) are near a box. It owns all Bullet objects; questions are read-only, so any number of threads may
+// ask at a time.
 #pragma once
 
 #include <cstdint>

@@ -24,18 +24,7 @@ struct FaceAround {
   Box seen;                                        // around all of these
 };
 
-struct BoxLanes {
-  Vec3Lanes low, high;
-
-  PLEAT_KERNEL BoxLanes with(const BoxLanes& b) const {
-    return {{min(low.x, b.low.x), min(low.y, b.low.y), min(low.z, b.low.z)},
-            {max(high.x, b.high.x), max(high.y, b.high.y), max(high.z, b.high.z)}};
-  }
-  PLEAT_KERNEL LaneMask overlap(const Box& b) const {
-    return (low.x <= b.high.x) & (low.y <= b.high.y) & (low.z <= b.high.z) & (high.x >= b.low.x) & (high.y >= b.low.y) &
-           (high.z >= b.low.z);
-  }
-};
+PLEAT_KERNEL BoxLanes lanes_of(const Box& box) { return {all(box.low), all(box.high)}; }
 
 MeshSought sought_of(const MeshCollider& mesh) { return {mesh.enabled, mesh.thickness, mesh.depth}; }
 
@@ -63,20 +52,17 @@ struct Gatherer {
     if (!swept.overlaps(in.bodies->swept_box(number))) return;
     MeshCandidateColumns& out = *in.candidates;
     out.blocks.count = 0;
-    std::uint32_t count = 0;
-    in.bodies->for_each_triangle(number, swept, [&](std::uint32_t t) {
-      if (count / kLanes == out.blocks.room.size()) {
-        out.complete = false;
-      } else {
-        out.blocks.room[count / kLanes].triangle[count % kLanes] = t;
-        ++count;
-      }
-    });
-    if (count == 0 || !out.complete) return;
-    for (; count % kLanes != 0; ++count) out.blocks.room[count / kLanes].triangle[count % kLanes] = kNoTriangle;
-    out.blocks.count = count / kLanes;
+    const BoxTree& tree = in.bodies->triangle_boxes(number);
     run_wide(widest_vectors(), [&] {
-      for (std::uint32_t b = 0; b < out.blocks.count; ++b) place(out.blocks.room[b]);
+      const BoxLanes around = lanes_of(swept);
+      const auto near = [&](const BoxLanes& boxes) PLEAT_KERNEL_LAMBDA { return boxes.overlaps(around); };
+      tree.for_each(near, [&](std::uint32_t leaf, std::uint32_t some) PLEAT_KERNEL_LAMBDA {
+        if (out.blocks.count == out.blocks.room.size()) {
+          out.complete = false;
+        } else {
+          place(tree.items(leaf), some, out.blocks.room[out.blocks.count++]);
+        }
+      });
     });
     for (const std::uint32_t* face = begin; face != end && out.complete; ++face) gather_face(*face);
   }
@@ -178,24 +164,21 @@ struct Gatherer {
     out.complete = room;
   }
 
-  /// Where the triangles of a block are. Lanes without one are near nothing.
-  PLEAT_KERNEL void place(MeshBlock& block) const {
+  /// Where those of eight triangles are whose bits are set. Other lanes are near nothing.
+  PLEAT_KERNEL void place(const std::uint32_t* triangle, std::uint32_t some, MeshBlock& block) const {
     const ConstVec3View previous = mesh.previous.view(), next = mesh.next.view();
     const Vec3Lanes origin = all(in.origin);
-    constexpr float kNowhere = 1e30f;
-    BoxLanes now{all({kNowhere, kNowhere, kNowhere}), all({-kNowhere, -kNowhere, -kNowhere})}, then = now;
+    BoxLanes now, then;
     for (std::uint32_t k = 0; k < 3; ++k) {
       std::uint32_t vertex[kLanes];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::uint32_t t = block.triangle[lane];
-        vertex[lane] = t == kNoTriangle ? 0 : mesh.triangles[3 * t + k];
-      }
+      for (std::size_t lane = 0; lane < kLanes; ++lane) vertex[lane] = mesh.triangles.data()[3 * triangle[lane] + k];
       const Vec3Lanes begin = gather_vertices(previous, vertex), end = gather_vertices(next, vertex);
       block.now[k] = begin + (end - begin) * in.t1 - origin, block.then[k] = end - origin;
       now = now.with({block.now[k], block.now[k]}), then = then.with({block.then[k], block.then[k]});
     }
+    std::copy_n(triangle, kLanes, block.triangle);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (block.triangle[lane] == kNoTriangle) now.low.x[lane] = then.low.x[lane] = kNowhere;
+      if ((some >> lane & 1) == 0) now.low.x[lane] = then.low.x[lane] = 1e30f;
     }
     block.now_low = now.low, block.now_high = now.high, block.then_low = then.low, block.then_high = then.high;
   }
@@ -208,8 +191,8 @@ struct Gatherer {
     // The triangles as seen from the drifting face. Box k: what corner k sweeps.
     const Vec3Lanes drift = all(f.drift);
     const BoxLanes swept =
-        BoxLanes{block.now_low, block.now_high}.with({block.then_low - drift, block.then_high - drift});
-    const LaneMask seen = swept.overlap(f.seen);
+        BoxLanes{block.now_low, block.now_high}.with(BoxLanes{block.then_low, block.then_high}.moved(-drift));
+    const LaneMask seen = swept.overlaps(lanes_of(f.seen));
     if (!any(seen)) return false;
     BoxLanes corner[3];
     Lanes low = all(1e30f), high = all(-1e30f);
@@ -222,15 +205,17 @@ struct Gatherer {
     const Lanes height = max(low, -high) - f.slack;
     const LaneMask beside = seen & (height <= search);
     if (!any(beside)) return false;
-    const LaneMask may_touch = beside & (height <= reach) & swept.overlap(f.around);
+    const LaneMask may_touch = beside & (height <= reach) & swept.overlaps(lanes_of(f.around));
     const BoxLanes edge[3] = {corner[0].with(corner[1]), corner[1].with(corner[2]), corner[2].with(corner[0])};
     for (std::size_t c = 0; c < 3; ++c) {
-      hits.particle[c] = f.owns_particle[c] ? bits(beside & swept.overlap(f.around_particle[c])) : std::uint8_t{0};
+      hits.particle[c] =
+          f.owns_particle[c] ? bits(beside & swept.overlaps(lanes_of(f.around_particle[c]))) : std::uint8_t{0};
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      hits.vertex[k] = bits(may_touch & corner[k].overlap(f.around));
+      hits.vertex[k] = bits(may_touch & corner[k].overlaps(lanes_of(f.around)));
       for (std::size_t c = 0; c < 3; ++c) {
-        hits.edges[c][k] = f.owns_edge[c] ? bits(may_touch & edge[k].overlap(f.around_edge[c])) : std::uint8_t{0};
+        hits.edges[c][k] =
+            f.owns_edge[c] ? bits(may_touch & edge[k].overlaps(lanes_of(f.around_edge[c]))) : std::uint8_t{0};
       }
     }
     return true;

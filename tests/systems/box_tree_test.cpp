@@ -31,7 +31,19 @@ struct Filed {
         boxes[i + 3 + k] = boxes[i + k] + size(random);
       }
     }
-    tree.refit(boxes.data());
+    tree.refit([&](const std::uint32_t* items) PLEAT_KERNEL_LAMBDA {
+      BoxLanes leaf;
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const Box b = box(items[k]);
+        leaf.low.x[k] = b.low.x, leaf.low.y[k] = b.low.y, leaf.low.z[k] = b.low.z;
+        leaf.high.x[k] = b.high.x, leaf.high.y[k] = b.high.y, leaf.high.z[k] = b.high.z;
+      }
+      return leaf;
+    });
+    Box whole;
+    for (std::uint32_t i = 0; i < order.size(); ++i) whole = whole.with(box(i));
+    EXPECT_EQ(tree.bounds().low, whole.low);
+    EXPECT_EQ(tree.bounds().high, whole.high);
   }
   Box box(std::uint32_t item) const {
     const float* b = boxes.data() + 6 * std::size_t{item};
