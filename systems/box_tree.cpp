@@ -63,7 +63,9 @@ Box BoxTree::bounds() const {
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const Vec3 low{root.low.x[lane], root.low.y[lane], root.low.z[lane]};
     const Vec3 high{root.high.x[lane], root.high.y[lane], root.high.z[lane]};
-    if (low.x <= high.x) box = box.with({low, high});
+    if (!(low.x <= high.x)) continue;  // empty
+    box.include(low);
+    box.include(high);
   }
   return box;
 }

@@ -48,7 +48,8 @@ struct MeshTree {
       }
       const float six[] = {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z};
       std::copy(six, six + 6, corners.data() + 6 * t);
-      all_of_it = all_of_it.with(box);
+      all_of_it.include(box.low);
+      all_of_it.include(box.high);
       const int low = static_cast<int>(2 * t);
       indices[3 * t] = low;
       indices[3 * t + 1] = indices[3 * t + 2] = low + 1;

@@ -41,7 +41,7 @@ struct Filed {
       return leaf;
     });
     Box whole;
-    for (std::uint32_t i = 0; i < order.size(); ++i) whole = whole.with(box(i));
+    for (std::uint32_t i = 0; i < order.size(); ++i) whole.include(box(i).low), whole.include(box(i).high);
     EXPECT_EQ(tree.bounds().low, whole.low);
     EXPECT_EQ(tree.bounds().high, whole.high);
   }
