@@ -52,7 +52,10 @@ struct BoundedList {
 /// Eight triangles of a body as they move, their corners m, and the boxes around all corners.
 struct MeshBlock {
   std::uint32_t triangle[kLanes];
-  Vec3Lanes now[3], then[3];  // at the end of the substep and of the tick
+  std::uint32_t opposite[3][kLanes];  // of edge k, where that counts here: the other triangle's third corner
+  std::uint8_t corners[3], edges[3];  // a bit for each triangle whose corner k, or edge k with a neighbour, counts here
+  std::uint8_t near, told;            // a bit for each that is near some face; for which that is filled in
+  Vec3Lanes now[3], then[3];          // at the end of the substep and of the tick
   Vec3Lanes now_low, now_high, then_low, then_high;
 };
 /// Which of them come near a face: a bit for each, near corner c; vertex k; edge k near edge c.

@@ -11,6 +11,7 @@ namespace {
 
 // m off its predicted path that a particle may be: twice as much as before where it was not enough, in time less.
 constexpr float kLeastSlack = 0.005f, kMostSlack = 0.04f, kSlackKept = 0.9f;
+constexpr float kHeadroom = 1.3f;   // of a margin that grows with the motion: cloth that falls gets faster
 constexpr float kRounding = 1e-5f;  // m
 
 /// A face of the cloth, and around it what is wanted of the body as it moves against the face.
@@ -65,6 +66,7 @@ struct Gatherer {
       });
     });
     for (const std::uint32_t* face = begin; face != end && out.complete; ++face) gather_face(*face);
+    for (std::uint32_t b = 0; b < out.blocks.count; ++b) list_vertices(out.blocks.room[b]);
   }
 
  private:
@@ -112,56 +114,83 @@ struct Gatherer {
     run_wide(widest_vectors(), [&] {
       for (std::uint32_t b = 0; b < out.blocks.count; ++b) {
         MeshHits hits;
-        if (!find_near(f, out.blocks.room[b], hits)) continue;
+        if (!find_near(f, out.blocks.room.data()[b], hits)) continue;
         hits.block = b;
-        out.hits[count++] = hits;
+        out.hits.data()[count++] = hits;
       }
     });
-    const std::span<const MeshHits> hits{out.hits.data(), count};
+    for (std::uint32_t h = 0; h < count; ++h) tell(out.blocks.room[out.hits[h].block]);
     bool room = true;
-    const auto pose = [&](std::uint32_t v) {
-      if (out.is_posed[v] != 0) return;
-      out.is_posed[v] = out.posed.add(v) ? 1 : 0;
-      room = room && out.is_posed[v] != 0;
-    };
     const auto for_each = [&](const auto& near, const auto& add) {
-      for (const MeshHits& h : hits) {
-        for (std::uint32_t some = near(h); some != 0; some &= some - 1) {
-          add(out.blocks.room[h.block].triangle[std::countr_zero(some)]);
+      for (const MeshHits* h = out.hits.data(); h != out.hits.data() + count; ++h) {
+        const MeshBlock& block = out.blocks.room.data()[h->block];
+        for (std::uint32_t some = near(*h, block); some != 0; some &= some - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(some));
+          add(block, lane, mesh.triangles.data() + 3 * std::size_t{block.triangle[lane]});
         }
       }
     };
-    const auto vertex = [&](std::uint32_t t, std::uint32_t k) { return mesh.triangles[3 * t + k]; };
     // Feature by feature, so that the order of pairs does not depend on what else is in the lists.
     for (std::uint32_t c = 0; c < 3; ++c) {
       if (!f.owns_particle[c]) continue;
-      for_each([&](const MeshHits& h) { return h.particle[c]; },
-               [&](std::uint32_t t) {
-                 for (std::uint32_t k = 0; k < 3; ++k) pose(vertex(t, k));
-                 room = out.particles.add({3 * face + c, t}) && room;
+      for_each([&](const MeshHits& h, const MeshBlock&) { return h.particle[c]; },
+               [&](const MeshBlock& block, std::size_t lane, const std::uint32_t*) {
+                 room = out.particles.add({3 * face + c, block.triangle[lane]}) && room;
                });
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      for_each([&](const MeshHits& h) { return h.vertex[k]; },
-               [&](std::uint32_t t) {
-                 if (!topology.owns_corner(t, static_cast<int>(k))) return;
-                 pose(vertex(t, k));
-                 room = out.vertices.add({face, vertex(t, k)}) && room;
+      for_each([&](const MeshHits& h, const MeshBlock& block) { return h.vertex[k] & block.corners[k]; },
+               [&](const MeshBlock&, std::size_t, const std::uint32_t* corner) {
+                 room = out.vertices.add({face, corner[k]}) && room;
                });
       for (std::uint32_t c = 0; c < 3; ++c) {
         if (!f.owns_edge[c]) continue;
-        const auto end = [&](std::size_t e) { return in.garment->edge_particle[e][in.garment->face_edge[c][face]]; };
-        for_each([&](const MeshHits& h) { return h.edges[c][k]; },
-                 [&](std::uint32_t t) {
-                   if (!topology.owns_edge(t, static_cast<int>(k))) return;
-                   MeshEdgePair pair{{end(0), end(1)}, {}};
-                   if (!find_ridge(mesh, topology, t, static_cast<int>(k), pair.ridge)) return;
-                   for (const std::uint32_t v : pair.ridge.vertex) pose(v);
-                   room = out.edges.add(pair) && room;
+        const std::uint32_t edge = in.garment->face_edge[c][face];
+        const std::uint32_t end[2] = {in.garment->edge_particle[0][edge], in.garment->edge_particle[1][edge]};
+        for_each([&](const MeshHits& h, const MeshBlock& block) { return h.edges[c][k] & block.edges[k]; },
+                 [&](const MeshBlock& block, std::size_t lane, const std::uint32_t* corner) {
+                   const std::uint32_t opposite = block.opposite[k][lane];
+                   room = out.edges.add(
+                              {{end[0], end[1]}, {{corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3], opposite}}}) &&
+                          room;
                  });
       }
     }
     out.complete = room;
+  }
+
+  /// Which features of the triangles that are near count here.
+  void tell(MeshBlock& block) const {
+    for (std::uint32_t some = block.near & ~block.told; some != 0; some &= some - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(some));
+      const auto bit = static_cast<std::uint8_t>(1u << lane);
+      for (int k = 0; k < 3; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        Ridge ridge;
+        if (topology.owns_corner(block.triangle[lane], k)) block.corners[at] |= bit;
+        if (!topology.owns_edge(block.triangle[lane], k)) continue;
+        if (!find_ridge(mesh, topology, block.triangle[lane], k, ridge)) continue;
+        block.edges[at] |= bit, block.opposite[at][lane] = ridge.vertex[3];
+      }
+    }
+    block.told = block.near;
+  }
+
+  /// The vertices of what is near.
+  void list_vertices(const MeshBlock& block) const {
+    MeshCandidateColumns& out = *in.candidates;
+    const auto pose = [&](std::uint32_t v) {
+      if (out.is_posed[v] != 0) return;
+      out.is_posed[v] = out.posed.add(v) ? 1 : 0;
+      out.complete = out.complete && out.is_posed[v] != 0;
+    };
+    for (std::uint32_t some = block.near; some != 0; some &= some - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(some));
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        pose(mesh.triangles[3 * block.triangle[lane] + k]);
+        if ((block.edges[k] >> lane & 1) != 0) pose(block.opposite[k][lane]);
+      }
+    }
   }
 
   /// Where those of eight triangles are whose bits are set. Other lanes are near nothing.
@@ -177,6 +206,8 @@ struct Gatherer {
       now = now.with({block.now[k], block.now[k]}), then = then.with({block.then[k], block.then[k]});
     }
     std::copy_n(triangle, kLanes, block.triangle);
+    block.near = block.told = 0;
+    for (std::size_t k = 0; k < 3; ++k) block.corners[k] = block.edges[k] = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if ((some >> lane & 1) == 0) now.low.x[lane] = then.low.x[lane] = 1e30f;
     }
@@ -187,7 +218,7 @@ struct Gatherer {
   }
 
   /// False where none is near.
-  PLEAT_KERNEL bool find_near(const FaceAround& f, const MeshBlock& block, MeshHits& hits) const {
+  PLEAT_KERNEL bool find_near(const FaceAround& f, MeshBlock& block, MeshHits& hits) const {
     // The triangles as seen from the drifting face. Box k: what corner k sweeps.
     const Vec3Lanes drift = all(f.drift);
     const BoxLanes swept =
@@ -205,6 +236,7 @@ struct Gatherer {
     const Lanes height = max(low, -high) - f.slack;
     const LaneMask beside = seen & (height <= search);
     if (!any(beside)) return false;
+    block.near = static_cast<std::uint8_t>(block.near | bits(beside));
     const LaneMask may_touch = beside & (height <= reach) & swept.overlaps(lanes_of(f.around));
     const BoxLanes edge[3] = {corner[0].with(corner[1]), corner[1].with(corner[2]), corner[2].with(corner[0])};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -243,36 +275,42 @@ bool MeshCandidates::validate() const {
 void MeshCandidates::run() const {
   MeshCandidateColumns& out = *candidates;
   const std::uint32_t count = garment->particle_count;
-  const float reach = thickness + contact_margin(position, previous, count);
+  const float margin = contact_margin(position, previous, count);
   // Without room for all there is no point in trying again in the same tick.
-  if (t0 > 0.0f ? !out.complete || still_hold(reach) : out.outlast_tick && out.complete && still_hold(reach)) return;
+  if (t0 > 0.0f ? !out.complete || still_hold(thickness + margin)
+                : out.outlast_tick && out.complete && still_hold(thickness + margin))
+    return;
 
+  const bool stand = out.garment == garment && out.revision == bodies->revision();
   adapt_slack();
   const float ticks = 1.0f / (t1 - t0) * dt;  // s, of the tick
   // What hardly moves is better looked for around where it is, and may still be there in ticks to come.
-  out.outlast_tick = t0 == 0.0f;
-  float most_slack = 0.0f;
+  out.outlast_tick = t0 == 0.0f && stand;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 drift = velocity[i] * ticks;
-    out.outlast_tick = out.outlast_tick && length(drift) <= 0.5f * out.slack[i];
+    out.outlast_tick = out.outlast_tick && length(drift) <= 0.5f * kMostSlack;
     out.anchor.view().set(i, position[i]);
     out.drift.view().set(i, drift);
-    most_slack = std::max(most_slack, out.slack[i]);
   }
-  if (out.outlast_tick) clear(out.drift.view(), count);
   Box box;
+  float most_slack = 0.0f;
   for (std::uint32_t i = 0; i < count; ++i) {
+    if (out.outlast_tick) {
+      out.slack[i] = std::max(out.slack[i], 2.0f * length(out.drift.view()[i]));
+      out.drift.view().set(i, {});
+    }
+    most_slack = std::max(most_slack, out.slack[i]);
     box.include(position[i]);
     box.include(position[i] + out.drift.view()[i] * (1.0f - t1));
   }
   out.garment = garment, out.origin = origin, out.revision = bodies->revision();
   out.t_anchor = t1;
-  out.reach = reach;
+  out.reach = thickness + (margin > kLeastMargin ? kHeadroom * margin : margin);
   out.particles.count = out.vertices.count = out.edges.count = out.posed.count = 0;
   out.complete = true;
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     const MeshCollider& mesh = *meshes[m];
-    const float mesh_reach = reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
+    const float mesh_reach = out.reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
     const std::uint32_t first = out.posed.count;
     if (mesh.enabled && box.grown(search + most_slack + kRounding).moved(origin).overlaps(bodies->swept_box(m))) {
       const Gatherer gatherer{*this, mesh, bodies->topology(m), m, mesh_reach, search};
