@@ -1,6 +1,7 @@
 // What of a cloth may touch what of the mesh bodies before the tick is over: looked up once, measured in each substep.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -96,7 +97,7 @@ struct MeshCandidateColumns {
   Vec3Column drift;                  // (P) m a tick
   Column<float> slack;               // (P) m
   float t_anchor = 0.0f;
-  bool outlast_tick = false;  // nothing drifts, and particles that start deep were looked for
+  bool outlast_tick = false;  // bodies stand, nothing drifts, and particles that start deep were looked for
   float reach = 0.0f;         // m, up to which features are wanted of a body that keeps nothing besides
 
   // Scratch.
@@ -104,7 +105,6 @@ struct MeshCandidateColumns {
   Column<Vec4> pose;              // (the same) m, where those listed of the body at hand are in a substep
   Column<float> distance2;        // m2, of pairs with particles
   Column<std::uint8_t> near;      // a bit for each other pair
-  Column<MeshEdgePair> crossing;  // those of `edges` that cross each other
   BoundedList<MeshBlock> blocks;  // of triangles near a cluster
   Column<MeshHits> hits;          // of these, on a face
 
@@ -122,22 +122,23 @@ struct MeshCandidateColumns {
         pose(m),
         distance2(m),
         near(m),
-        crossing(m),
         blocks(m),
         hits(m) {}
 
   /// For so many pairs of edges, and a share of that of others. Forgets what was found: another garment may come to be
   /// where this one was.
-  void make_room(std::size_t cloth_particles, std::size_t bodies, std::size_t body_vertices, std::size_t pairs) {
+  void make_room(std::size_t cloth_particles, std::size_t bodies, std::size_t body_vertices, std::size_t body_triangles,
+                 std::size_t pairs) {
     at_least(particles.room, pairs / 2), at_least(vertices.room, pairs / 4), at_least(edges.room, pairs);
     garment = nullptr;
     at_least(posed.room, pairs / 4), at_least(ends, bodies), at_least(sought, bodies);
-    at_least(blocks.room, kMostBlocks), at_least(hits, kMostBlocks);
+    const std::size_t most_blocks = std::min((body_triangles + kLanes - 1) / kLanes, kMostBlocks);
+    at_least(blocks.room, most_blocks), at_least(hits, most_blocks);
     at_least(anchor, cloth_particles), at_least(drift, cloth_particles), at_least(slack, cloth_particles);
     at_least(is_posed, body_vertices), at_least(pose, body_vertices);
-    at_least(distance2, pairs / 2), at_least(near, pairs / 8 + 1), at_least(crossing, pairs);
+    at_least(distance2, pairs / 2), at_least(near, pairs / 8 + 1);
   }
-  static constexpr std::size_t kMostBlocks = 512;
+  static constexpr std::size_t kMostBlocks = 1024;
   MeshCandidateEnds so_far() const { return {particles.count, vertices.count, edges.count, posed.count}; }
 };
 

@@ -1,4 +1,4 @@
-// Bodies come and go: their data, their places in Bullet's trees, their handles.
+// Bodies come and go: their data, their places in the trees, their handles.
 #include "engine/world.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"

@@ -4,19 +4,17 @@
 #include <bit>
 
 #include "engine/world.h"
-#ifdef PLEAT_WITH_COLLISION
-#include "systems/near_search.h"
-#endif
 
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
-constexpr std::size_t kContactsPerParticle = 16;        // room for rows; what does not fit is counted
-constexpr std::size_t kSelfContactsPerParticle = 32;    // room for rows of cloth that touches cloth
-constexpr std::size_t kMeshCandidates = 65536;          // room for pairs with mesh bodies, and as many more
-constexpr std::size_t kMeshCandidatesPerParticle = 32;  // for each particle
-constexpr std::size_t kMostClearancePlanes = 4096;      // settled together; more are settled in turn
+constexpr std::size_t kMostCapsulesPerCloth = 1024;   // near one cloth at a time
+constexpr std::size_t kContactsPerParticle = 16;      // room for rows; what does not fit is counted
+constexpr std::size_t kSelfContactsPerParticle = 32;  // room for rows of cloth that touches cloth
+constexpr std::size_t kMeshPairsPerTriangle = 64;     // room for pairs of edges with a body of few triangles
+constexpr std::size_t kMostMeshPairs = 262144;        // the same of many
+constexpr std::size_t kMeshPairsPerParticle = 64;     // room besides
+constexpr std::size_t kMostClearancePlanes = 4096;    // settled together; more are settled in turn
 
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
@@ -54,10 +52,14 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
   worker.capsule_candidates.make_room(g, worker.capsule_poses.size());
   if (!world.meshes.empty()) {
-    std::size_t most_vertices = 0;
-    for (const MeshRecord& body : world.meshes) most_vertices = std::max(most_vertices, body.mesh.next.size());
-    worker.mesh_candidates.make_room(g.particle_count, world.meshes.size(), most_vertices,
-                                     kMeshCandidates + kMeshCandidatesPerParticle * g.particle_count);
+    std::size_t most_vertices = 0, most_triangles = 0;
+    for (const MeshRecord& body : world.meshes) {
+      most_vertices = std::max(most_vertices, body.mesh.next.size());
+      most_triangles = std::max(most_triangles, body.mesh.triangles.size() / 3);
+    }
+    const std::size_t pairs = std::min(kMeshPairsPerTriangle * most_triangles, kMostMeshPairs);
+    worker.mesh_candidates.make_room(g.particle_count, world.meshes.size(), most_vertices, most_triangles,
+                                     pairs + kMeshPairsPerParticle * g.particle_count);
   }
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
     if (!world.meshes.empty()) at_least(worker.footprint, pattern->vertex_count);

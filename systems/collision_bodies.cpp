@@ -31,6 +31,7 @@ struct MeshTree {
   BodyTopology topology;
   BoxTree tree;
   Box bounds;
+  bool moves = false;
 
   MeshTree(const MeshCollider& mesh, std::pmr::memory_resource* memory)
       : topology(build_body_topology(mesh, memory)), tree(memory) {
@@ -76,13 +77,15 @@ struct MeshTree {
 
   void refit(const MeshCollider& mesh) {
     const ConstVec3View previous = mesh.previous.view(), next = mesh.next.view();
+    LaneMask moved{};
     tree.refit([&](const std::uint32_t* triangle) PLEAT_KERNEL_LAMBDA {
       BoxLanes box;
       for (std::uint32_t k = 0; k < 3; ++k) {
         std::uint32_t vertex[kLanes];
         for (std::size_t lane = 0; lane < kLanes; ++lane) vertex[lane] = mesh.triangles.data()[3 * triangle[lane] + k];
-        for (const ConstVec3View& end : {previous, next}) {
-          const Vec3Lanes p = gather(end, vertex);
+        const Vec3Lanes begin = gather(previous, vertex), end = gather(next, vertex);
+        moved |= (begin.x != end.x) | (begin.y != end.y) | (begin.z != end.z);
+        for (const Vec3Lanes& p : {begin, end}) {
           box.low = {min(box.low.x, p.x), min(box.low.y, p.y), min(box.low.z, p.z)};
           box.high = {max(box.high.x, p.x), max(box.high.y, p.y), max(box.high.z, p.z)};
         }
@@ -90,6 +93,7 @@ struct MeshTree {
       return box.grown(all(mesh.bow));
     });
     bounds = tree.bounds();
+    moves = any(moved) || mesh.bow != 0.0f;
   }
 };
 
@@ -151,6 +155,9 @@ void CollisionBodies::update_mesh(std::size_t index, const MeshCollider& mesh) {
 
 std::size_t CollisionBodies::mesh_count() const { return trees_->meshes.size(); }
 std::uint64_t CollisionBodies::revision() const { return trees_->revision; }
+bool CollisionBodies::any_mesh_moves() const {
+  return std::ranges::any_of(trees_->meshes, [](const auto& mesh) { return mesh->moves; });
+}
 const BodyTopology& CollisionBodies::topology(std::size_t mesh) const { return trees_->meshes[mesh]->topology; }
 const Box& CollisionBodies::swept_box(std::size_t mesh) const { return trees_->meshes[mesh]->bounds; }
 const BoxTree& CollisionBodies::triangle_boxes(std::size_t mesh) const { return trees_->meshes[mesh]->tree; }

@@ -35,8 +35,10 @@ class CollisionBodies {
   void update_mesh(std::size_t index, const MeshCollider& mesh);
 
   std::size_t mesh_count() const;
-  /// Another one whenever a mesh was added, removed or updated.
+  /// Another one whenever a mesh was added, removed or updated, as long as these bodies live.
   std::uint64_t revision() const;
+  /// Between its previous and its next pose, as it was last updated.
+  bool any_mesh_moves() const;
   const BodyTopology& topology(std::size_t mesh) const;
   const Box& swept_box(std::size_t mesh) const;
   /// Of the triangles, with the boxes they sweep, in the order in which for_each_triangle comes to them.

@@ -11,8 +11,7 @@ namespace {
 
 // m off its predicted path that a particle may be: twice as much as before where it was not enough, in time less.
 constexpr float kLeastSlack = 0.005f, kMostSlack = 0.04f, kSlackKept = 0.9f;
-constexpr float kHeadroom = 1.3f;   // of a margin that grows with the motion: cloth that falls gets faster
-constexpr float kRounding = 1e-5f;  // m
+constexpr float kHeadroom = 1.3f;  // of a margin that grows with the motion: cloth that falls gets faster
 
 /// A face of the cloth, and around it what is wanted of the body as it moves against the face.
 struct FaceAround {
@@ -49,7 +48,7 @@ struct Gatherer {
         slack = std::max(slack, in.candidates->slack[i]);
       }
     }
-    swept = swept.grown(search + slack + kRounding).moved(in.origin);
+    swept = swept.grown(search + slack + in.rounding()).moved(in.origin);
     if (!swept.overlaps(in.bodies->swept_box(number))) return;
     MeshCandidateColumns& out = *in.candidates;
     out.blocks.count = 0;
@@ -89,7 +88,7 @@ struct Gatherer {
     f.drift = (drifts[0] + drifts[1] + drifts[2]) * (1.0f / 3.0f);
     float spread2 = 0.0f;
     for (const Vec3& d : drifts) spread2 = std::max(spread2, dot(d - f.drift, d - f.drift));
-    f.slack += kRounding + 2.0f * mesh.bow + std::sqrt(spread2);
+    f.slack += in.rounding() + 2.0f * mesh.bow + std::sqrt(spread2);
     for (std::size_t c = 0; c < 3; ++c) {
       f.around.include(x[c]);
       f.around_particle[c] = Box{x[c], x[c]}.grown(search + f.slack);
@@ -269,7 +268,8 @@ bool MeshCandidates::validate() const {
          inverse_mass != nullptr && bodies != nullptr && (meshes != nullptr || bodies->mesh_count() == 0) &&
          thickness >= 0.0f && dt > 0.0f && t0 >= 0.0f && t0 < t1 && t1 <= 1.0f && candidates != nullptr &&
          candidates->anchor.size() >= garment->particle_count && candidates->drift.size() >= garment->particle_count &&
-         candidates->ends.size() >= bodies->mesh_count();
+         candidates->slack.size() >= garment->particle_count && candidates->ends.size() >= bodies->mesh_count() &&
+         candidates->sought.size() >= bodies->mesh_count() && candidates->hits.size() >= candidates->blocks.room.size();
 }
 
 void MeshCandidates::run() const {
@@ -281,11 +281,10 @@ void MeshCandidates::run() const {
                 : out.outlast_tick && out.complete && still_hold(thickness + margin))
     return;
 
-  const bool stand = out.garment == garment && out.revision == bodies->revision();
   adapt_slack();
   const float ticks = 1.0f / (t1 - t0) * dt;  // s, of the tick
   // What hardly moves is better looked for around where it is, and may still be there in ticks to come.
-  out.outlast_tick = t0 == 0.0f && stand;
+  out.outlast_tick = t0 == 0.0f && !bodies->any_mesh_moves();
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 drift = velocity[i] * ticks;
     out.outlast_tick = out.outlast_tick && length(drift) <= 0.5f * kMostSlack;
@@ -312,7 +311,7 @@ void MeshCandidates::run() const {
     const MeshCollider& mesh = *meshes[m];
     const float mesh_reach = out.reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
     const std::uint32_t first = out.posed.count;
-    if (mesh.enabled && box.grown(search + most_slack + kRounding).moved(origin).overlaps(bodies->swept_box(m))) {
+    if (mesh.enabled && box.grown(search + most_slack + rounding()).moved(origin).overlaps(bodies->swept_box(m))) {
       const Gatherer gatherer{*this, mesh, bodies->topology(m), m, mesh_reach, search};
       const std::uint32_t* begin = garment->clustered_faces.data();
       for (const std::uint32_t end : garment->cluster_end) {

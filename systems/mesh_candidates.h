@@ -1,7 +1,8 @@
 // What of a cloth may touch what of the mesh bodies before the tick is over.
 //
-// The tree is asked once for each face, for all that the face and the body sweep. What it names is far too much where
-// both move fast side by side; so a pair is kept only if it comes near in the frame that drifts with the face:
+// The tree is asked once for each cluster of faces, for all that these and the body sweep. What it names is far too
+// much where both move fast side by side; so a pair is kept only if it comes near in the frame that drifts with the
+// face:
 //
 //      in the world                        drifting with the face
 //   face   body ->                         face   body
@@ -17,7 +18,7 @@ namespace pleat {
 
 /// Fills `candidates` in the first substep of a tick, and again where a particle has left its predicted path by more
 /// than some mm or moves too fast for what was gathered; else it does nothing. Where bodies stand and the cloth hardly
-/// moves what was found holds in the ticks that follow too, where a worker has no other cloth.
+/// moves what was found holds in the ticks that follow too, where a worker has no other cloth in between.
 /// Reads:  garment edges, faces; position, previous (P) m; velocity (P) m/s; meshes and their trees
 /// Writes: candidates, which have room for the vertices of each mesh
 /// Cost:   O(P + bodies); when it gathers O(F log T + pairs); no allocation. Errors: none; see
@@ -38,6 +39,9 @@ struct MeshCandidates {
 
   bool validate() const;
   void run() const;
+
+  /// By which places in the world may be off, so far from its origin, m.
+  float rounding() const { return 1e-5f + 1e-6f * (std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z)); }
 
  private:
   bool still_hold(float reach) const;

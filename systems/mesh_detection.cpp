@@ -14,6 +14,7 @@ namespace pleat {
 namespace {
 
 constexpr float kTouching = 1e-4f;       // m; nearer than this the body's own normal is better than the difference
+constexpr std::size_t kCrossing = 256;   // pairs of edges that cross each other, asked together whether they are met
 constexpr std::size_t kRowsPerFace = 4;  // the deepest body vertices over a face
 
 /// What is nearest to one corner of the face at hand.
@@ -43,48 +44,45 @@ struct MeshTest {
   float reach = thickness + margin;
   float search = mesh_search(pose.mesh, reach, in.t0);
 
-  /// Without candidates: the same rows in the same order, after asking the tree for each feature.
+  /// Without candidates: the same rows in the same order, after asking the tree about each face three times.
   void test_all(std::size_t mesh) const {
     const Garment& g = *in.garment;
     const auto& topology = pose.topology;
-    const auto for_each_near = [&](std::uint32_t face, const auto& test) {
-      Box box;
-      for (const auto& particle : g.face_particle) box.include(in.position[particle[face]]);
-      box = box.grown(search);
-      in.bodies->for_each_triangle(mesh, box.moved(in.origin), [&](std::uint32_t t) {
-        const MeshPose::Corners body = pose.corners(t);
-        if (box.overlaps(body.box())) test(t, body);
-      });
-    };
     for (const std::uint32_t face : g.clustered_faces) {
-      for (int k = 0; k < 3; ++k) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          if (!owns_edge(g, face, c)) continue;
-          const std::uint32_t edge = g.face_edge[c][face];
-          MeshEdgePair pair{{g.edge_particle[0][edge], g.edge_particle[1][edge]}, {}};
-          for_each_near(face, [&](std::uint32_t t, const MeshPose::Corners&) {
-            if (!topology.owns_edge(t, k) || !find_ridge(pose.mesh, topology, t, k, pair.ridge)) return;
-            test_edges(pair, [&](std::uint32_t v) { return pose.vertex(v); });
-          });
+      for_each_near(mesh, face, [&](std::span<const std::uint32_t> near) {
+        for (int k = 0; k < 3; ++k) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            if (!owns_edge(g, face, c)) continue;
+            const std::uint32_t edge = g.face_edge[c][face];
+            MeshEdgePair pair{{g.edge_particle[0][edge], g.edge_particle[1][edge]}, {}};
+            for (const std::uint32_t t : near) {
+              if (!topology.owns_edge(t, k) || !find_ridge(pose.mesh, topology, t, k, pair.ridge)) continue;
+              test_edges(pair, [&](std::uint32_t v) { return pose.vertex(v); });
+            }
+          }
         }
-      }
+      });
     }
     for (const std::uint32_t face : g.clustered_faces) {
       Face f = measure(face);
-      for_each_near(face, [&](std::uint32_t t, const MeshPose::Corners& body) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          if (owns_particle(g, in.inverse_mass, face, c)) find_nearest(f.x[c], t, body, f.nearest[c]);
+      for_each_near(mesh, face, [&](std::span<const std::uint32_t> near) {
+        for (const std::uint32_t t : near) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            if (owns_particle(g, in.inverse_mass, face, c)) find_nearest(f.x[c], t, pose.corners(t), f.nearest[c]);
+          }
         }
       });
       add_rows(f);
     }
     for (const std::uint32_t face : g.clustered_faces) {
       Face f = measure(face);
-      for (int k = 0; k < 3; ++k) {
-        for_each_near(face, [&](std::uint32_t t, const MeshPose::Corners& body) {
-          if (topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), body[k]);
-        });
-      }
+      for_each_near(mesh, face, [&](std::span<const std::uint32_t> near) {
+        for (int k = 0; k < 3; ++k) {
+          for (const std::uint32_t t : near) {
+            if (topology.owns_corner(t, k)) test_vertex(f, pose.corner(t, k), pose.vertex(pose.corner(t, k)));
+          }
+        }
+      });
       add_rows(f);
     }
   }
@@ -99,13 +97,21 @@ struct MeshTest {
     const MeshPairs pairs{*in.garment, in.packed, body, pose.mesh.triangles.data(), reach};
     const auto edges = all.edges.between(begin.edges, end.edges);
     pairs.find_near(edges, all.near.data());
+    std::array<MeshEdgePair, kCrossing> crossing;
+    std::array<std::uint8_t, kCrossing / kLanes> met;
     std::size_t count = 0;
-    for_each_near(edges, all.near.data(), [&](const MeshEdgePair& pair) { all.crossing[count++] = pair; });
-    const std::span<const MeshEdgePair> crossing{all.crossing.data(), count};
-    pairs.find_met(crossing, all.near.data());
-    for_each_near(crossing, all.near.data(), [&](const MeshEdgePair& pair) {
-      test_edges(pair, [&](std::uint32_t v) { return vector_of(body[v]); });
+    const auto test_crossing = [&] {
+      const std::span<const MeshEdgePair> some{crossing.data(), std::exchange(count, 0)};
+      pairs.find_met(some, met.data());
+      for_each_near(some, met.data(), [&](const MeshEdgePair& pair) {
+        test_edges(pair, [&](std::uint32_t v) { return vector_of(body[v]); });
+      });
+    };
+    for_each_near(edges, all.near.data(), [&](const MeshEdgePair& pair) {
+      crossing[count++] = pair;
+      if (count == crossing.size()) test_crossing();
     });
+    test_crossing();
 
     const auto particles = all.particles.between(begin.particles, end.particles);
     pairs.measure(particles, all.distance2.data());
@@ -136,6 +142,24 @@ struct MeshTest {
     std::array<Standing, kRowsPerFace> standing;
     std::size_t standing_count = 0;
   };
+
+  /// test(triangles near the face), as many at a time as the lists of candidates hold at most of a face.
+  template <class Test>
+  void for_each_near(std::size_t mesh, std::uint32_t face, const Test& test) const {
+    Box box;
+    for (const auto& particle : in.garment->face_particle) box.include(in.position[particle[face]]);
+    box = box.grown(search);
+    std::array<std::uint32_t, kLanes * MeshCandidateColumns::kMostBlocks> near;
+    std::size_t count = 0;
+    in.bodies->for_each_triangle(mesh, box.moved(in.origin), [&](std::uint32_t t) {
+      if (!box.overlaps(pose.corners(t).box())) return;
+      near[count++] = t;
+      if (count < near.size()) return;
+      test(std::span<const std::uint32_t>(near));
+      count = 0;
+    });
+    test(std::span<const std::uint32_t>(near.data(), count));
+  }
 
   /// test(pair) for those of the pairs whose bit is set.
   template <class Pair, class Test>

@@ -20,7 +20,7 @@ namespace pleat {
 /// to matter when the sweeps turn an edge or a face by a slope of 0.2.
 /// Reads:  garment edges, faces; position, previous (P) m; inverse_mass (P) 1/kg; meshes and their trees
 /// Writes: contacts, added to; stats.contacts_dropped; scratch of the candidates
-/// Cost:   O(candidates), without them many times O(F log T + close pairs); no allocation. Errors: none; features
+/// Cost:   O(candidates), without them some times O(F log T + close pairs); no allocation. Errors: none; features
 /// without extent make finite rows or none.
 struct MeshDetection {
   const Garment* garment = nullptr;

@@ -16,7 +16,7 @@ PLEAT_KERNEL Lanes distance2_to_segment(const Vec3Lanes& p, const Vec3Lanes& alo
 }
 
 PLEAT_KERNEL Lanes distance2_to_triangle(const Vec3Lanes& p, const Vec3Lanes (&x)[3]) {
-  constexpr float kLeastSine2 = 1e-8f;  // of thinner triangles the sides are near enough
+  constexpr float kLeastSine2 = 1e-7f;  // of thinner triangles the sides are near enough
   const Vec3Lanes ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0], area = cross(ab, ac);
   const Lanes area2 = dot(area, area), c = dot(cross(ab, ap), area), b = dot(cross(ap, ac), area);
   const LaneMask over =

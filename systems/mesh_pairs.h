@@ -17,9 +17,9 @@ struct MeshPairs {
   const std::uint32_t* triangles;  // three vertices each
   float reach;                     // m
 
-  /// The distance to the triangle, squared, m2, right to kDistanceError m.
+  /// The distance to the triangle, squared, m2, right to kDistanceError m where its sides are not longer than a metre.
   void measure(std::span<const MeshParticlePair> pairs, float* distance2) const;
-  static constexpr float kDistanceError = 1e-4f;
+  static constexpr float kDistanceError = 5e-4f;
 
   /// A bit for each pair, the first one's lowest: the vertex lies within reach over the face, or beside one of its
   /// edges.

@@ -80,6 +80,47 @@ TEST(HeldCandidates, AreLookedForAnewWhereTheWorkerHasAnotherClothAndTheBitsAreT
   EXPECT_GT(touched, 200u);
 }
 
+/// Three cloths of one garment in one place, the last in many substeps, through which a body flies in a single tick:
+/// what one worker has looked for with the first of them is of no use to the others.
+TEST(HeldCandidates, AreNotThoseOfAnotherClothOfTheSameGarment) {
+  const auto stage = [](std::uint32_t workers) {
+    pleat_world_def def = Scene::default_def();
+    def.workers = workers;
+    std::fill_n(def.gravity, 3, 0.0f);
+    return def;
+  };
+  struct Three {
+    Scene scene;
+    pleat_cloth last{};
+    pleat_collider body = add_peaks(scene, 0);
+
+    explicit Three(const pleat_world_def& def) : scene(def) {
+      const pleat_garment garment = scene.sheet(12);
+      pleat_cloth_settings s = Scene::default_settings();
+      for (const std::uint32_t substeps : {1u, 1u, 16u}) {
+        s.substeps = substeps;
+        last = scene.cloth(garment, s);
+      }
+    }
+    std::uint64_t play(int tick) {
+      if (tick == 10) {
+        const std::vector<float> x = peaks(1.2f, 0);
+        must(call::collider_move_mesh(scene, body, x.data(), 0, 8));
+      }
+      scene.step();
+      return scene.stats().face_contacts;
+    }
+  };
+  Three one(stage(1)), three(stage(3));
+  std::uint64_t touched = 0;
+  for (int tick = 0; tick < 14; ++tick) {
+    touched += one.play(tick);
+    three.play(tick);
+    ASSERT_EQ(one.scene.particles(one.last), three.scene.particles(three.last)) << tick;
+  }
+  EXPECT_GT(touched, 100u);
+}
+
 TEST(HeldCandidates, EveryVectorSetGivesTheSameBits) {
   Resting by_set[std::size(kVectorSets)];
   const VectorSet most = widest_vectors();

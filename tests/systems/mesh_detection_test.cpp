@@ -269,7 +269,7 @@ TEST(MeshDetection, CandidatesGiveTheRowsOfTheTree) {
     ContactCloth cloth(x, triangles);
     MeshCandidateColumns candidates(memory());
     const std::size_t pairs = tick == 7 ? 20 : 80000;  // in one of them there is no room
-    candidates.make_room(cloth.garment.particle_count, 1, body.mesh.next.size(), pairs);
+    candidates.make_room(cloth.garment.particle_count, 1, body.mesh.next.size(), body.mesh.triangles.size() / 3, pairs);
     const float wild = tick % 3 == 2 ? 0.02f : 0.001f;  // m a substep off the predicted path
     for (int s = 0; s < kSubsteps; ++s) {
       const float t0 = static_cast<float>(s) / kSubsteps, t1 = static_cast<float>(s + 1) / kSubsteps;
