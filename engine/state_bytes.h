@@ -33,6 +33,7 @@ struct Counting {
   void array(const char*, const T*, std::size_t count, Range) {
     bytes += count * sizeof(T);
   }
+  void need(bool, const char*) {}
 };
 
 struct Writing {
@@ -48,6 +49,7 @@ struct Writing {
     std::memcpy(to, data, count * sizeof(T));
     to += count * sizeof(T);
   }
+  void need(bool, const char*) {}
 };
 
 /// What is const is not changed: so a world is compared with the bytes first, which checks all of them.
@@ -74,6 +76,10 @@ struct Reading {
     const char* begin = take(count * sizeof(T));
     check<T>(name, begin, count, range);
     if (count != 0) std::memcpy(data, begin, count * sizeof(T));
+  }
+  /// What numbers must be to each other.
+  void need(bool holds, const char* otherwise) {
+    if (!holds) refuse(otherwise);
   }
 
  private:

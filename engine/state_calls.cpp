@@ -1,4 +1,7 @@
 // The state of a world as bytes: counted, written, checked and read by one list of what it consists of.
+#include <array>
+#include <utility>
+
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/cloth_tick.h"
@@ -14,24 +17,30 @@ namespace {
 constexpr std::uint32_t kMagic = 0x54414c50;  // "PLAT", and which end of a number comes first
 constexpr std::uint32_t kFormat = 2;          // one more whenever the list below changes
 
-/// Pairs of a cloth with itself or with others.
+/// Pairs of a cloth with itself or with those below it, in the order in which they are found.
 template <class Io, class Pairs>
 void near_pairs(Io& io, const World& world, const ClothRecord& cloth, Pairs& column, std::uint32_t count) {
   const std::size_t begin = std::size_t{SelfColumns::kPairsPerParticle} * cloth.particle_begin;
-  const auto below = [](std::uint32_t end) { return Range{0.0, static_cast<double>(end) - 1.0}; };
+  const auto below = [](std::size_t end) { return Range{0.0, static_cast<double>(end) - 1.0}; };
   const Garment& own = cloth.garment();
+  const bool itself = &column == &world.self.pairs;
+  std::array<std::uint32_t, 3> last{};
   for (std::uint32_t k = 0; k < count; ++k) {
     auto& pair = column[begin + k];
     auto kind = static_cast<std::uint32_t>(pair.kind);
-    number(io, "pair", kind, {0.0, 2.0});
-    const std::uint32_t cloth_of =
-        number(io, "pair", pair.cloth, below(static_cast<std::uint32_t>(world.clothes.size())));
-    const Garment& other = &column == &world.self.pairs ? own : world.clothes[cloth_of].garment();
+    number(io, "pair", kind, {0.0, itself ? 1.0 : 2.0});
+    const std::uint32_t cloth_of = number(io, "pair", pair.cloth, below(itself ? 1 : world.clothes.size()));
+    const std::uint32_t layer = world.clothes[cloth_of].settings.layer;
+    if (!itself) io.need(layer > 0 && layer < cloth.settings.layer, "the state's pair is with no layer below");
+    const Garment& other = itself ? own : world.clothes[cloth_of].garment();
     const auto is = static_cast<NearKind>(kind);
     const bool swapped = is == NearKind::kOtherParticleFace;
     const Garment &first = swapped ? other : own, &second = swapped ? own : other;
     number(io, "pair", pair.first, below(is == NearKind::kEdges ? first.edge_count : first.particle_count));
-    number(io, "pair", pair.second, below(is == NearKind::kEdges ? second.edge_count : second.face_count));
+    const std::uint32_t second_of =
+        number(io, "pair", pair.second, below(is == NearKind::kEdges ? second.edge_count : second.face_count));
+    const std::array<std::uint32_t, 3> place{cloth_of, kind, second_of};
+    io.need(std::exchange(last, place) <= place, "the state's pairs are not in order");
     number(io, "pair", pair.distance, kPositive);
     number(io, "pair", pair.side, kUnit);
     if constexpr (!std::is_const_v<Pairs>) pair.kind = is;
