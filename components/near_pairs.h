@@ -89,6 +89,7 @@ struct LayersSought {
   Vec3 motion;          // m, of the cloth in ticks that are over
   float others = 0.0f;  // m, how far one of those near has moved against that in these ticks at most
   float t = 0.0f;       // the fraction of this tick from which on their motion is to be added
+  bool cut = false;     // some pairs found no room
 };
 
 /// What layers keep; ranges as those of SelfColumns.

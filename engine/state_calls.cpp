@@ -15,7 +15,7 @@ namespace pleat::call {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x54414c50;  // "PLAT", and which end of a number comes first
-constexpr std::uint32_t kFormat = 2;          // one more whenever the list below changes
+constexpr std::uint32_t kFormat = 3;          // one more whenever the list below changes
 
 /// Pairs of a cloth with itself or with those below it, in the order in which they are found.
 template <class Io, class Pairs>
@@ -151,6 +151,7 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
       }
       vector(io, "pairs", sought.motion, kPlace);
       number(io, "pairs", sought.others, kPositive);
+      flag(io, "pairs", sought.cut);
       near_pairs(io, world, cloth, world.layers.pairs, count);
     }
   }

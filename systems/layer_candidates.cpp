@@ -103,17 +103,20 @@ void LayerCandidates::run(Stats& stats) const {
   if (t0 == 0.0f) sought->t = 0.0f;
   std::uint32_t kept = 0;
   if (*pairs.count != kNone) {
-    if (near == sought->near && !near.too_many() && still_hold(*this)) return;
+    const bool due = t0 == 0.0f && sought->cut;
+    if (!due && near == sought->near && !near.too_many() && still_hold(*this)) return;
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
   copy(sought_at, position, garment->particle_count);
-  *sought = {.near = near, .motion = {}, .others = 0.0f, .t = t1};
+  *sought = {.near = near, .motion = {}, .others = 0.0f, .t = t1, .cut = false};
   *pairs.count = 0;
   NearMemory memory{scratch->pairs.data(), scratch->pairs.data() + kept};
+  const std::uint64_t dropped = stats.contacts_dropped;
   for (std::uint32_t k = around->begin; k < around->end; ++k) {
     if (may_touch(*garment, layer, distance, box, clothes[k])) search(*this, k, memory, stats);
   }
+  sought->cut = stats.contacts_dropped != dropped;
 }
 
 }  // namespace pleat

@@ -198,6 +198,28 @@ TEST(Layers, GoOnFromASavedStateBitByBit) {
   }
 }
 
+TEST(Layers, PairsThatFoundNoRoomGetThatOfAClothThatGoes) {
+  Scene scene;
+  const pleat_garment fine = scene.sheet(16);
+  const pleat_cloth lowest = scene.cloth(fine, in_layer(1)), lower = scene.cloth(fine, in_layer(1));
+  place(scene, lower, 0, 0.005f, 0, 0);
+  const pleat_cloth upper = scene.cloth(scene.sheet(6), in_layer(2));
+  place(scene, upper, 0, 0.02f, 0, 0);
+  scene.step(300);
+  const auto pairs = [&] { return scene.inside().clothes.back().layer_pair_count; };
+  const std::uint32_t room = SelfColumns::kPairsPerParticle * scene.info(upper).particles;
+  ASSERT_EQ(pairs(), room);
+  for (int tick = 0; tick < 5; ++tick) {
+    scene.step();
+    EXPECT_GT(report(scene, upper).contacts_dropped, 0u) << "in each tick";
+  }
+  must(call::cloth_destroy(scene, lowest));
+  const std::uint32_t left = pairs();
+  ASSERT_LT(left, room);
+  scene.step();
+  EXPECT_GT(pairs(), left);
+}
+
 TEST(Layers, GiveTheSameBitsWithAnyVectors) {
   std::vector<float> first;
   for (const VectorSet vectors : kVectorSets) {

@@ -65,6 +65,17 @@ TEST(StatePairs, PairsWithNoLayerBelowOrOutOfOrderAreRefused) {
   EXPECT_EQ(scene.load(good), pleat_result{PLEAT_OK});
 }
 
+TEST(StatePairs, ThatSomeFoundNoRoomIsSaved) {
+  TwoLayers scene;
+  bool& cut = scene.inside().clothes.back().layers_sought.cut;
+  EXPECT_FALSE(cut);
+  cut = true;
+  const Bytes state = scene.saved();
+  cut = false;
+  EXPECT_EQ(scene.load(state), pleat_result{PLEAT_OK});
+  EXPECT_TRUE(cut);
+}
+
 TEST(StatePairs, PropertyAWorldTicksOnWithWhateverStateItTook) {
   TwoLayers scene;
   const Bytes good = scene.saved();

@@ -21,7 +21,7 @@ struct Layered {
   ContactCloth own, below;
   Vec3Column begin{memory()}, end{memory()}, sought_at{memory()};
   std::vector<NearPair> pairs = std::vector<NearPair>(512);
-  std::uint32_t pair_count = kNone;
+  std::uint32_t pair_count = kNone, room = 512;
   LayersSought sought;
   LayersAround around;
   NearScratch scratch{memory()};
@@ -51,7 +51,7 @@ struct Layered {
                   .low = box.low,
                   .high = box.high};
   }
-  NearPairList list() { return {pairs.data(), 512, &pair_count}; }
+  NearPairList list() { return {pairs.data(), room, &pair_count}; }
   void search(float t0, float t1) {
     if (t0 == 0.0f) around = {};
     const LayerCandidates search{.garment = &own.garment,
@@ -234,6 +234,27 @@ TEST(LayerCandidates, AClothThatIsNewNearbyOrWasForgottenIsSought) {
   scene.clothes[0] = {};
   EXPECT_TRUE(scene.seeks(0.0f, 1.0f));
   EXPECT_FALSE(scene.seeks(0.0f, 1.0f));
+}
+
+TEST(LayerCandidates, WherePairsFoundNoRoomTheyAreSoughtOnceATick) {
+  Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {});
+  scene.search(0.0f, 0.5f);
+  const std::uint32_t all = scene.pair_count;
+  ASSERT_GT(all, 4u);
+  EXPECT_FALSE(scene.sought.cut);
+  scene.room = all - 3, scene.pair_count = kNone;
+  for (std::uint64_t tick = 1; tick <= 3; ++tick) {
+    scene.search(0.0f, 0.5f);
+    scene.search(0.5f, 1.0f);
+    EXPECT_EQ(scene.pair_count, all - 3);
+    EXPECT_EQ(scene.stats.contacts_dropped, 3 * tick);
+    EXPECT_TRUE(scene.sought.cut);
+  }
+  scene.room = all;
+  scene.search(0.0f, 0.5f);
+  EXPECT_EQ(scene.pair_count, all);
+  EXPECT_FALSE(scene.sought.cut);
+  EXPECT_FALSE(scene.seeks(0.0f, 0.5f));
 }
 
 TEST(LayersNear, AreKeptInOrderOrAreTooMany) {
