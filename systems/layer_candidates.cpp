@@ -53,26 +53,32 @@ LayersAround seek(const LayerCandidates& in, const Box& box) {
   return around;
 }
 
-LayersNear those_near(const LayerCandidates& in, const Box& box) {
-  LayersNear near;
+/// visit(k) for all that are near the box.
+template <class Visit>
+void for_each_near(const LayerCandidates& in, const Box& box, const Visit& visit) {
   for (std::uint32_t k = in.around->begin; k < in.around->end; ++k) {
-    if (may_touch(*in.garment, in.layer, in.distance, box, in.clothes[k])) near.add(k);
+    if (may_touch(*in.garment, in.layer, in.distance, box, in.clothes[k])) visit(k);
   }
-  return near;
 }
 
 /// Whether the pairs are all that may touch still. As paths of others are known in this tick only, a tick's last
 /// substep keeps what they moved in it against the cloth's motion as a whole; over all ticks both add up to more than
-/// any two have moved against each other.
-bool still_hold(const LayerCandidates& in) {
+/// any two have moved against each other. One that was not near when pairs were sought was farther away than they reach
+/// by more than the margin.
+bool still_hold(const LayerCandidates& in, const Box& box) {
   LayersSought& last = *in.sought;
   const Vec3 motion = mean_motion(in.sought_at, in.position, in.garment->particle_count);
   float others = 0.0f, margin = std::numeric_limits<float>::max();
-  for (const std::uint32_t k : last.near.kept()) {
+  const auto add = [&](std::uint32_t k) {
     const LayerCloth& other = in.clothes[k];
     others = std::max(others, largest_motion(motion - last.motion, other.begin, other.end,
                                              other.garment->particle_count, in.t1 - last.t));
     margin = std::min(margin, near_margin(*in.garment, *other.garment));
+  };
+  if (last.near.too_many()) {
+    for_each_near(in, box, add);
+  } else {
+    std::ranges::for_each(last.near.kept(), add);
   }
   others += last.others;
   if (largest_motion(motion, in.sought_at, in.position, in.garment->particle_count) + others > margin) return false;
@@ -99,12 +105,13 @@ void LayerCandidates::run(Stats& stats) const {
   const std::uint32_t count = garment->particle_count;
   const Box box = box_of(previous, count).with(box_of(position, count)).moved(origin);
   if (!around->box.holds(box)) *around = seek(*this, box.grown(kSkin));
-  const LayersNear near = those_near(*this, box);
+  LayersNear near;
+  for_each_near(*this, box, [&](std::uint32_t k) { near.add(k); });
   if (t0 == 0.0f) sought->t = 0.0f;
   std::uint32_t kept = 0;
   if (*pairs.count != kNone) {
-    const bool due = t0 == 0.0f && sought->cut;
-    if (!due && near == sought->near && !near.too_many() && still_hold(*this)) return;
+    const bool due = t0 == 0.0f && (near.too_many() || sought->cut);
+    if (!due && near == sought->near && still_hold(*this, box)) return;
     kept = *pairs.count;
     std::copy(pairs.pairs, pairs.pairs + kept, scratch->pairs.data());
   }
@@ -113,9 +120,7 @@ void LayerCandidates::run(Stats& stats) const {
   *pairs.count = 0;
   NearMemory memory{scratch->pairs.data(), scratch->pairs.data() + kept};
   const std::uint64_t dropped = stats.contacts_dropped;
-  for (std::uint32_t k = around->begin; k < around->end; ++k) {
-    if (may_touch(*garment, layer, distance, box, clothes[k])) search(*this, k, memory, stats);
-  }
+  for_each_near(*this, box, [&](std::uint32_t k) { search(*this, k, memory, stats); });
   sought->cut = stats.contacts_dropped != dropped;
 }
 

@@ -20,11 +20,11 @@ struct LayersAround {
 
 /// Looks for pairs anew where others are near than when it last did, or where the cloths have moved against each other
 /// by more than a margin of 0.15 edges since; until then the pairs stay as they are. What they move is added up tick by
-/// tick: cloth at rest looks for nothing. Where more than 16 cloths are near it looks in every substep, and where not
-/// all pairs found room once more in each tick. A pair that was there before keeps the side that it remembers. Reads:
-/// garments; position (predicted), previous (P) m; clothes Writes: pairs; sought_at (P) m; sought; around; scratch;
-/// stats.contacts_dropped: pairs beyond the capacity Cost:   O(P + P of those near), when it looks O(P + E + F) of
-/// them, and once a tick O(clothes); no allocation. To be
+/// tick: cloth at rest looks for nothing. Where more than 16 cloths are near, or not all pairs found room, it looks as
+/// a tick begins too. A pair that was there before keeps the side that it remembers.
+/// Reads:  garments; position (predicted), previous (P) m; clothes
+/// Writes: pairs; sought_at (P) m; sought; around; scratch; stats.contacts_dropped: pairs beyond the capacity
+/// Cost:   O(P + P of those near), when it looks O(P + E + F) of them, and once a tick O(clothes); no allocation. To be
 ///         run in every substep of every tick in which one of those near moves.
 /// Errors: none.
 struct LayerCandidates {

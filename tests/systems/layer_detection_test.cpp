@@ -26,6 +26,7 @@ struct Layered {
   LayersAround around;
   NearScratch scratch{memory()};
   LayerCloth clothes[2];
+  std::span<const LayerCloth> all = clothes;
   Stats stats;
 
   Layered(ContactCloth upper, ContactCloth lower, const Vec3& step) : own(std::move(upper)), below(std::move(lower)) {
@@ -58,7 +59,7 @@ struct Layered {
                                  .position = own.position.view(),
                                  .previous = own.previous.view(),
                                  .layer = 2,
-                                 .clothes = clothes,
+                                 .clothes = all,
                                  .t0 = t0,
                                  .t1 = t1,
                                  .distance = kDistance,
@@ -255,6 +256,24 @@ TEST(LayerCandidates, WherePairsFoundNoRoomTheyAreSoughtOnceATick) {
   EXPECT_EQ(scene.pair_count, all);
   EXPECT_FALSE(scene.sought.cut);
   EXPECT_FALSE(scene.seeks(0.0f, 0.5f));
+}
+
+TEST(LayerCandidates, WhereManyAreNearPairsAreSoughtOnceATickAndWhereOneMoves) {
+  const ContactCloth floor(kFloor, {{0, 1, 2}});
+  const float margin = 0.15f * floor.garment.mean_edge_length;
+  for (const float step : {0.0f, 0.9f, 1.1f}) {  // of the last one below in half a tick, in margins
+    Layered scene(ContactCloth(roof(), {{0, 1, 2}}), ContactCloth(kFloor, {{0, 1, 2}}), {2.0f * step * margin, 0, 0});
+    LayerCloth stands = scene.clothes[1];
+    stands.end = stands.begin;
+    std::vector<LayerCloth> many(LayersNear::kMost + 2, stands);
+    many.back() = scene.clothes[1];
+    scene.all = many;
+    for (int tick = 0; tick < 3; ++tick) {
+      EXPECT_TRUE(scene.seeks(0.0f, 0.5f)) << tick;
+      EXPECT_TRUE(scene.sought.near.too_many());
+      EXPECT_EQ(scene.seeks(0.5f, 1.0f), step > 1.0f) << step << " " << tick;
+    }
+  }
 }
 
 TEST(LayersNear, AreKeptInOrderOrAreTooMany) {
