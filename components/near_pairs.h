@@ -127,8 +127,8 @@ struct NearScratch {
   explicit NearScratch(std::pmr::memory_resource* m)
       : pairs(m), middle(m), pose(m), half(m), other(m), other_begin(m), grid(m) {}
   bool holds(std::size_t particles, std::size_t edges) const {
-    return middle.size() >= edges && half.size() >= edges && pose.size() >= particles &&
-           grid.holds(std::max(particles, edges));
+    return middle.size() >= edges && half.size() >= edges && pose.size() >= particles && other.size() >= particles &&
+           other_begin.size() >= particles && grid.holds(std::max(particles, edges));
   }
   void make_room(std::size_t particles, std::size_t edges) {
     at_least(middle, edges), at_least(half, edges), at_least(pose, particles);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "systems/closest_points.h"
-
 namespace pleat {
 namespace {
 
@@ -98,7 +96,7 @@ bool LayerCandidates::validate() const {
   return garment != nullptr && position.x != nullptr && previous.x != nullptr && layer > 0 && distance >= 0.0f &&
          t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && sought_at.x != nullptr && sought != nullptr &&
          around != nullptr && scratch != nullptr && scratch->pairs.size() >= pairs.capacity &&
-         scratch->holds(garment->particle_count, garment->edge_count);
+         scratch->holds(garment->particle_count, garment->edge_count) && holds_all(*scratch, clothes);
 }
 
 void LayerCandidates::run(Stats& stats) const {

@@ -24,8 +24,9 @@ struct LayersAround {
 /// a tick begins too. A pair that was there before keeps the side that it remembers.
 /// Reads:  garments; position (predicted), previous (P) m; clothes
 /// Writes: pairs; sought_at (P) m; sought; around; scratch; stats.contacts_dropped: pairs beyond the capacity
-/// Cost:   O(P + P of those near), when it looks O(P + E + F) of them, and once a tick O(clothes); no allocation. To be
-///         run in every substep of every tick in which one of those near moves.
+/// Cost:   O(P + P of those near + clothes from the first to the last one around), when it looks O(P + E + F) of those
+///         near, and once a tick O(clothes); no allocation. To be run in every substep of every tick in which one of
+///         those near moves.
 /// Errors: none.
 struct LayerCandidates {
   const Garment* garment = nullptr;

@@ -2,6 +2,7 @@
 
 #include "systems/close_pairs.h"
 #include "systems/contact_row.h"
+#include "systems/near_search.h"
 
 namespace pleat {
 namespace {
@@ -81,7 +82,7 @@ void add_row(const LayerDetection& in, const ClosePair& close, const ContactRowM
 bool LayerDetection::validate() const {
   return garment != nullptr && position != nullptr && begin != nullptr && previous.x != nullptr &&
          inverse_mass != nullptr && t0 < t1 && pairs.pairs != nullptr && pairs.count != nullptr && friction >= 0.0f &&
-         dt > 0.0f && scratch != nullptr && contacts.count != nullptr;
+         dt > 0.0f && scratch != nullptr && holds_all(*scratch, clothes) && contacts.count != nullptr;
 }
 
 void LayerDetection::run(Stats& stats) const {

@@ -1,5 +1,6 @@
 #include "systems/near_search.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "systems/closest_points.h"
@@ -108,8 +109,8 @@ struct Edge {
 };
 
 /// Between an edge and eight others, each with its middle and half: squared, m2. As closest_between_segments does it,
-/// but in single precision, where parallel ones may come out farther apart by a thousandth of their lengths at most,
-/// and next to nothing where they are not nearly in touch.
+/// but in single precision, where parallel ones may come out farther apart: by a thousandth of their lengths at most
+/// where these are alike, by next to nothing where they are not nearly in touch.
 PLEAT_KERNEL Lanes distance2_between(const Vec3Lanes& middle, const Vec4Lanes& half, const Vec3& other_middle,
                                      const Vec4& other_half) {
   const auto on_edge = [](const Lanes& t) PLEAT_KERNEL_LAMBDA { return min(max(t, all(-1.0f)), all(1.0f)); };
@@ -140,6 +141,12 @@ float rest_distance_between(const Garment& g, const Edge& a, const Edge& b) {
 }
 
 }  // namespace
+
+bool holds_all(const NearScratch& scratch, std::span<const LayerCloth> clothes) {
+  return std::ranges::all_of(clothes, [&](const LayerCloth& cloth) {
+    return cloth.garment == nullptr || scratch.holds(cloth.garment->particle_count, cloth.garment->edge_count);
+  });
+}
 
 float near_margin(const Garment& first, const Garment& second) { return kMarginShare * mean_edge(first, second); }
 

@@ -1,6 +1,8 @@
 // The search for pairs of features that may come to touch, of one cloth or of two.
 #pragma once
 
+#include <span>
+
 #include "components/garment.h"
 #include "components/near_pairs.h"
 #include "components/stats.h"
@@ -13,6 +15,8 @@ struct PosedCloth {
   ConstVec3View position;  // (P) m
 };
 
+/// Whether there is room for each cloth that is seen.
+bool holds_all(const NearScratch& scratch, std::span<const LayerCloth> clothes);
 /// How far two cloths may move against each other until pairs are sought anew, m: 0.15 edges.
 float near_margin(const Garment& first, const Garment& second);
 /// The mean motion of particles, m.

@@ -360,6 +360,17 @@ TEST(LayerCandidates, AClothThatCameFromFarMeetsWhatIsThere) {
   EXPECT_GT(scene.pair_count, 0u);
 }
 
+TEST(NearScratch, MustHaveRoomForEachClothThatIsSeen) {
+  const ContactCloth floor(kFloor, {{0, 1, 2}});
+  const LayerCloth clothes[2] = {{}, {.garment = &floor.garment, .layer = 1}};
+  NearScratch scratch(memory());
+  EXPECT_FALSE(holds_all(scratch, clothes));
+  scratch.make_room(3, 3);
+  EXPECT_TRUE(holds_all(scratch, clothes));
+  scratch.other_begin.resize(2);
+  EXPECT_FALSE(holds_all(scratch, clothes));
+}
+
 TEST(LayerDetection, WithoutAreaThereIsNoRowAndNothingNotFinite) {
   ContactCloth lower(kFloor, {{0, 1, 2}});
   for (std::uint32_t i = 0; i < 3; ++i) lower.put(i, {}, {});
