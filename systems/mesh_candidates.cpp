@@ -132,13 +132,13 @@ struct Gatherer {
     // Feature by feature, so that the order of pairs does not depend on what else is in the lists.
     for (std::uint32_t c = 0; c < 3; ++c) {
       if (!f.owns_particle[c]) continue;
-      for_each([&](const MeshHits& h, const MeshBlock&) { return h.particle[c]; },
+      for_each([&](const MeshHits& h, const MeshBlock&) { return std::uint32_t{h.particle[c]}; },
                [&](const MeshBlock& block, std::size_t lane, const std::uint32_t*) {
                  room = out.particles.add({3 * face + c, block.triangle[lane]}) && room;
                });
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      for_each([&](const MeshHits& h, const MeshBlock& block) { return h.vertex[k] & block.corners[k]; },
+      for_each([&](const MeshHits& h, const MeshBlock& block) { return std::uint32_t{h.vertex[k]} & block.corners[k]; },
                [&](const MeshBlock&, std::size_t, const std::uint32_t* corner) {
                  room = out.vertices.add({face, corner[k]}) && room;
                });
@@ -146,13 +146,14 @@ struct Gatherer {
         if (!f.owns_edge[c]) continue;
         const std::uint32_t edge = in.garment->face_edge[c][face];
         const std::uint32_t end[2] = {in.garment->edge_particle[0][edge], in.garment->edge_particle[1][edge]};
-        for_each([&](const MeshHits& h, const MeshBlock& block) { return h.edges[c][k] & block.edges[k]; },
-                 [&](const MeshBlock& block, std::size_t lane, const std::uint32_t* corner) {
-                   const std::uint32_t opposite = block.opposite[k][lane];
-                   room = out.edges.add(
-                              {{end[0], end[1]}, {{corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3], opposite}}}) &&
-                          room;
-                 });
+        for_each(
+            [&](const MeshHits& h, const MeshBlock& block) { return std::uint32_t{h.edges[c][k]} & block.edges[k]; },
+            [&](const MeshBlock& block, std::size_t lane, const std::uint32_t* corner) {
+              const std::uint32_t opposite = block.opposite[k][lane];
+              room = out.edges.add(
+                         {{end[0], end[1]}, {{corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3], opposite}}}) &&
+                     room;
+            });
       }
     }
     out.complete = room;

@@ -106,7 +106,7 @@ struct Stage : Scene {
     for (const pleat_cloth& cloth : cloths) {
       const std::vector<float> x = particles(cloth);
       all.insert(all.end(), x.begin(), x.end());
-      if (inside().clothes[&cloth - cloths.data()].visible) {
+      if (inside().clothes[static_cast<std::size_t>(&cloth - cloths.data())].visible) {
         const std::vector<float> drawn = vertices(cloth);
         all.insert(all.end(), drawn.begin(), drawn.end());
       }

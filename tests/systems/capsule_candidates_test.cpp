@@ -148,7 +148,7 @@ TEST(CapsuleCandidates, FarCornersComeNear) {
 }
 
 TEST(CapsuleCandidates, WhatHasNoRoomIsLookedAtAsAWhole) {
-  for (const std::size_t room : {0, 8, 40}) {
+  for (const std::size_t room : {0u, 8u, 40u}) {
     Walk walk;
     walk.cloth.candidates.corner.resize(room);
     walk.swing = 3.0f, walk.tremble = 0.002f;

@@ -59,7 +59,7 @@ TEST(ClosePairsProperty, WhoNeedNotBeLookedAtIsLeftAsClosenessLeavesIt) {
         ++close_by;
         EXPECT_TRUE(over && near.distance <= kMost && (close.passed >> lane & 1) == 0);
         EXPECT_EQ(side[lane], expected);
-        EXPECT_EQ(Vec3(close.normal.x[lane], close.normal.y[lane], close.normal.z[lane]), near.normal);
+        EXPECT_EQ((Vec3{close.normal.x[lane], close.normal.y[lane], close.normal.z[lane]}), near.normal);
         for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(close.weight[k][lane], near.weight[k]);
         continue;
       }

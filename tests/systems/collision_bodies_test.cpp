@@ -58,7 +58,7 @@ TEST(CollisionBodies, FindsEveryEnabledCapsuleThroughMovesAndRemovals) {
 
 TEST(CollisionBodies, TheTreeOfTrianglesHasEachOnceInTheOrderOfBulletsTree) {
   for (const std::uint32_t detail : {0u, 1u, 3u}) {
-    const BodyShape sphere = icosphere(detail, 1.0f);
+    const BodyShape sphere = icosphere(static_cast<int>(detail), 1.0f);
     MeshCollider mesh = make_body(sphere.positions, sphere.triangles);
     CollisionBodies bodies(memory());
     bodies.add_mesh(mesh);

@@ -142,7 +142,7 @@ TEST(MeshClearance, AFlatBodyPushesStraightUpAcrossItsInnerEdges) {
 TEST(MeshClearance, WhatContactLeftInsideComesOutTheNearestWay) {
   for (const std::uint32_t detail : {2u, 4u}) {  // a few triangles under each drawn one, and dozens
     for (const float gap : {0.0f, -0.001f}) {
-      Sagging s(0.01f, under_sheet(icosphere(detail, 0.3f), 0.0f, 0.0f, gap));
+      Sagging s(0.01f, under_sheet(icosphere(static_cast<int>(detail), 0.3f), 0.0f, 0.0f, gap));
       const std::vector<Vec3> before = s.all_drawn();
       s.run();
       EXPECT_GE(s.least_distance(), kClearance - kRounding) << "detail " << detail << ", gap " << gap;
