@@ -37,7 +37,7 @@ struct Gatherer {
   float reach, search;   // m; of features, and of particles that start deep
 
   /// Of faces that lie together.
-  void gather(const std::uint32_t* begin, const std::uint32_t* end) const {
+  void gather_cluster(const std::uint32_t* begin, const std::uint32_t* end) const {
     Box swept;
     float slack = 0.0f;
     for (const std::uint32_t* face = begin; face != end; ++face) {
@@ -48,7 +48,7 @@ struct Gatherer {
         slack = std::max(slack, in.candidates->slack[i]);
       }
     }
-    swept = swept.grown(search + slack + in.rounding()).moved(in.origin);
+    swept = swept.grown(search + slack + box_rounding(in.origin)).moved(in.origin);
     if (!swept.overlaps(in.bodies->swept_box(number))) return;
     MeshCandidateColumns& out = *in.candidates;
     out.blocks.count = 0;
@@ -88,7 +88,7 @@ struct Gatherer {
     f.drift = (drifts[0] + drifts[1] + drifts[2]) * (1.0f / 3.0f);
     float spread2 = 0.0f;
     for (const Vec3& d : drifts) spread2 = std::max(spread2, dot(d - f.drift, d - f.drift));
-    f.slack += in.rounding() + 2.0f * mesh.bow + std::sqrt(spread2);
+    f.slack += box_rounding(in.origin) + 2.0f * mesh.bow + std::sqrt(spread2);
     for (std::size_t c = 0; c < 3; ++c) {
       f.around.include(x[c]);
       f.around_particle[c] = Box{x[c], x[c]}.grown(search + f.slack);
@@ -201,7 +201,7 @@ struct Gatherer {
     for (std::uint32_t k = 0; k < 3; ++k) {
       std::uint32_t vertex[kLanes];
       for (std::size_t lane = 0; lane < kLanes; ++lane) vertex[lane] = mesh.triangles.data()[3 * triangle[lane] + k];
-      const Vec3Lanes begin = gather_vertices(previous, vertex), end = gather_vertices(next, vertex);
+      const Vec3Lanes begin = gather(previous, vertex), end = gather(next, vertex);
       block.now[k] = begin + (end - begin) * in.t1 - origin, block.then[k] = end - origin;
       now = now.with({block.now[k], block.now[k]}), then = then.with({block.then[k], block.then[k]});
     }
@@ -212,9 +212,6 @@ struct Gatherer {
       if ((some >> lane & 1) == 0) now.low.x[lane] = then.low.x[lane] = 1e30f;
     }
     block.now_low = now.low, block.now_high = now.high, block.then_low = then.low, block.then_high = then.high;
-  }
-  static PLEAT_KERNEL Vec3Lanes gather_vertices(ConstVec3View from, const std::uint32_t* vertex) {
-    return pleat::gather(from, vertex);
   }
 
   /// False where none is near.
@@ -312,11 +309,12 @@ void MeshCandidates::run() const {
     const MeshCollider& mesh = *meshes[m];
     const float mesh_reach = out.reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
     const std::uint32_t first = out.posed.count;
-    if (mesh.enabled && box.grown(search + most_slack + rounding()).moved(origin).overlaps(bodies->swept_box(m))) {
+    if (mesh.enabled &&
+        box.grown(search + most_slack + box_rounding(origin)).moved(origin).overlaps(bodies->swept_box(m))) {
       const Gatherer gatherer{*this, mesh, bodies->topology(m), m, mesh_reach, search};
       const std::uint32_t* begin = garment->clustered_faces.data();
       for (const std::uint32_t end : garment->cluster_end) {
-        if (out.complete) gatherer.gather(begin, garment->clustered_faces.data() + end);
+        if (out.complete) gatherer.gather_cluster(begin, garment->clustered_faces.data() + end);
         begin = garment->clustered_faces.data() + end;
       }
     }

@@ -40,9 +40,6 @@ struct MeshCandidates {
   bool validate() const;
   void run() const;
 
-  /// By which places in the world may be off, so far from its origin, m.
-  float rounding() const { return 1e-5f + 1e-6f * (std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z)); }
-
  private:
   bool still_hold(float reach) const;
   void adapt_slack() const;

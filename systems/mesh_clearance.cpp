@@ -11,9 +11,8 @@
 namespace pleat {
 namespace {
 
-constexpr float kFlatSlope = 0.02f;    // up to which the body around a closest point may rise above it
-constexpr float kTouching = 1e-5f;     // m; nearer than this the body's own normal is better than the difference
-constexpr float kBoxRounding = 1e-6f;  // m that boxes may be off by, for each metre of a place in the world
+constexpr float kFlatSlope = 0.02f;  // up to which the body around a closest point may rise above it
+constexpr float kTouching = 1e-5f;   // m; nearer than this the body's own normal is better than the difference
 constexpr std::uint64_t kFirstOfEach = 0x0101010101010101;  // bit of eight
 constexpr std::size_t kPlanesPerTriangle = 8;               // of a drawn triangle against one body
 
@@ -182,7 +181,7 @@ struct MeshTest {
     const Vec3Lanes normal = all(of(faces.normal)), corner = all(of(faces.corner[0])),
                     in_world = all(of(faces.corner[0]) + in.origin);
     const Vec3 at = of(faces.corner[0]) + in.origin;
-    const float rounding = kBoxRounding * (10.0f + std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
+    const float rounding = box_rounding(at);
     const BoxLanes box{all(of(faces.box.low)), all(of(faces.box.high))};
     const BoxLanes around = box.moved(all(in.origin)).grown(all(rounding));
     const BulgeT<float> bulge{faces.bulge.up[lane], faces.bulge.down[lane]};

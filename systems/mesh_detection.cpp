@@ -305,7 +305,6 @@ bool MeshDetection::validate() const {
 
 void MeshDetection::run(Stats& stats) const {
   const float margin = contact_margin(position, previous, garment->particle_count);
-  const Box cloth = box_of(position, garment->particle_count);
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   const std::uint32_t first = *contacts.count;
   const bool among = candidates != nullptr && candidates->complete;
@@ -316,7 +315,10 @@ void MeshDetection::run(Stats& stats) const {
     const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1, origin}, rows, margin, stats};
     if (among) {
       test.test_candidates(*candidates, std::exchange(begin, end), end);
-    } else if (cloth.grown(test.search).moved(origin).overlaps(bodies->swept_box(m))) {
+    } else if (box_of(position, garment->particle_count)
+                   .grown(test.search)
+                   .moved(origin)
+                   .overlaps(bodies->swept_box(m))) {
       test.test_all(m);
     }
   }

@@ -26,17 +26,14 @@ MeshPose::Ring MeshPose::look_around(std::uint32_t v, const Vec3& direction, flo
     LaneMask rises{}, falls{};
     const std::uint32_t last = topology.ring_begin[v + 1];
     for (std::uint32_t r = topology.ring_begin[v]; r < last; r += kLanes) {
-      Vec3Lanes side[2];
+      std::uint32_t beside[2][kLanes];
       for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
         const std::uint32_t* t = mesh.triangles.data() + 3 * std::size_t{topology.ring[std::min(r + lane, last - 1)]};
         const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        for (std::size_t s = 0; s < 2; ++s) {
-          const Vec3 p = vertex(t[(k + 1 + s) % 3]);
-          side[s].x[lane] = p.x, side[s].y[lane] = p.y, side[s].z[lane] = p.z;
-        }
+        for (std::size_t s = 0; s < 2; ++s) beside[s][lane] = t[(k + 1 + s) % 3];
       }
-      for (Vec3Lanes& d : side) {
-        d = d - at;
+      const Vec3Lanes side[2] = {vertices(beside[0]) - at, vertices(beside[1]) - at};
+      for (const Vec3Lanes& d : side) {
         const Lanes rise = dot(d, up);
         const LaneMask steep = rise * rise > tolerance * tolerance * dot(d, d);
         rises |= steep & (rise > 0.0f), falls |= steep & (rise < 0.0f);

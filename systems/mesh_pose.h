@@ -14,6 +14,9 @@ inline float mesh_search(const MeshCollider& mesh, float reach, float t0) {
   return t0 == 0.0f ? std::max(reach, mesh.depth) : reach;
 }
 
+/// By how much boxes may be off around a place in the world, m.
+inline float box_rounding(const Vec3& at) { return 1e-6f * (10.0f + std::abs(at.x) + std::abs(at.y) + std::abs(at.z)); }
+
 /// Features of a cloth are measured as part of one of the faces around them, and pinned particles as part of none.
 inline bool owns_particle(const Garment& garment, const float* inverse_mass, std::uint32_t face, std::size_t c) {
   const std::uint32_t i = garment.face_particle[c][face];

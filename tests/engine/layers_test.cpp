@@ -183,15 +183,12 @@ TEST(Layers, GoOnFromASavedStateBitByBit) {
   place(scene, upper, 0.1f, 0.03f, 0.1f, 0.4f);
   for (const int tick : {20, 60, 200}) {
     scene.step(tick);
-    std::uint64_t bytes = 0;
-    must(call::world_state_size(scene, &bytes));
-    std::vector<char> state(bytes);
-    must(call::world_save(scene, state.data(), bytes));
+    const Bytes state = scene.saved();
     scene.step(40);
     const std::vector<float> expected = scene.particles(upper);
     const std::vector<Vec3> expected_sought_at = sought_at(scene);
     scene.step(15);  // pairs are others then
-    must(call::world_load(scene, state.data(), bytes));
+    must(scene.load(state));
     scene.step(40);
     EXPECT_TRUE(same_bits(scene.particles(upper), expected)) << tick;
     EXPECT_EQ(sought_at(scene), expected_sought_at) << tick;

@@ -16,6 +16,9 @@ namespace pleat {
 /// Fails the test that calls it when the result is not PLEAT_OK.
 inline void must(pleat_result result) { ASSERT_EQ(result, pleat_result{PLEAT_OK}); }
 
+/// What a world's state is saved to.
+using Bytes = std::vector<unsigned char>;
+
 class Scene {
  public:
   Scene() : Scene(default_def()) {}
@@ -119,6 +122,14 @@ class Scene {
     must(call::world_stats(world_, &stats));
     return stats;
   }
+  Bytes saved() {
+    std::uint64_t bytes = 0;
+    must(call::world_state_size(*this, &bytes));
+    Bytes state(bytes);
+    must(call::world_save(*this, state.data(), bytes));
+    return state;
+  }
+  pleat_result load(const Bytes& state) { return call::world_load(*this, state.data(), state.size()); }
   /// The plan's line for a system; empty where there is none.
   std::string explain(const std::string& system) {
     struct Search {

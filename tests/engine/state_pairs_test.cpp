@@ -7,8 +7,6 @@
 namespace pleat {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
-
 /// A cloth on another one over a ball, at rest: pairs are held from tick to tick.
 struct TwoLayers : Scene {
   static pleat_world_def silent() {
@@ -35,14 +33,6 @@ struct TwoLayers : Scene {
     return inside().layers.pairs.data() + SelfColumns::kPairsPerParticle * inside().clothes.back().particle_begin;
   }
   std::uint32_t pair_count() { return inside().clothes.back().layer_pair_count; }
-  Bytes saved() {
-    std::uint64_t bytes = 0;
-    must(call::world_state_size(*this, &bytes));
-    Bytes state(bytes);
-    must(call::world_save(*this, state.data(), bytes));
-    return state;
-  }
-  pleat_result load(const Bytes& state) { return call::world_load(*this, state.data(), state.size()); }
 };
 
 TEST(StatePairs, PairsWithNoLayerBelowOrOutOfOrderAreRefused) {

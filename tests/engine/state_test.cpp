@@ -9,8 +9,6 @@
 namespace pleat {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
-
 /// Far from the origin and in gusts: a cloth over a ball, one above it in a higher layer, one that touches itself on a
 /// box that turns over a plane and a mesh, and one that the integrators' optional columns are for.
 struct Stage : Scene {
@@ -118,14 +116,6 @@ struct Stage : Scene {
     }
     return all;
   }
-  Bytes saved() {
-    std::uint64_t bytes = 0;
-    must(call::world_state_size(*this, &bytes));
-    Bytes state(bytes);
-    must(call::world_save(*this, state.data(), bytes));
-    return state;
-  }
-  pleat_result load(const Bytes& state) { return call::world_load(*this, state.data(), state.size()); }
 };
 
 TEST(State, PropertyAWorldGoesOnWithTheSameBits) {
