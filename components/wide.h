@@ -16,12 +16,12 @@
 #endif
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten))
+#define PLEAT_TARGET_AVX2 __attribute__((target("avx2"), flatten, noinline))
 #ifdef __clang__
-#define PLEAT_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2"), flatten))
+#define PLEAT_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2"), flatten, noinline))
 #else
 #define PLEAT_TARGET_AVX512 \
-  __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2,prefer-vector-width=256"), flatten))
+  __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,bmi2,prefer-vector-width=256"), flatten, noinline))
 #endif
 #else
 #define PLEAT_TARGET_AVX2
@@ -38,12 +38,12 @@ namespace pleat {
 enum class VectorSet { kBaseline, kAvx2, kAvx512 };  // a processor that has one has those before it
 inline constexpr VectorSet kVectorSets[] = {VectorSet::kBaseline, VectorSet::kAvx2, VectorSet::kAvx512};
 
-/// What kernels are compiled for at most. Clang's flatten takes in what a kernel calls but not what that calls in turn:
-/// where little is inlined such a function would return its lanes as the baseline does, and AVX code misread them.
-#if !defined(__x86_64__) || !defined(__GNUC__) || (defined(__clang__) && defined(PLEAT_CHECKED))
+/// What kernels are compiled for at most. Builds to find mistakes do with the baseline, in which the same source runs
+/// by the same choices: there, other versions take longer to compile than all else together. Nor would clang's work:
+/// its flatten takes in what a kernel calls but not what that calls in turn, which, where little is inlined, would
+/// return its lanes as the baseline does, and AVX code misread them.
+#if !defined(__x86_64__) || !defined(__GNUC__) || defined(PLEAT_CHECKED)
 inline constexpr VectorSet kMostVectors = VectorSet::kBaseline;
-#elif defined(PLEAT_CHECKED)
-inline constexpr VectorSet kMostVectors = VectorSet::kAvx2;  // the third version would take long to compile
 #else
 inline constexpr VectorSet kMostVectors = VectorSet::kAvx512;
 #endif
@@ -58,7 +58,7 @@ inline VectorSet vectors_of_processor() {
     found = VectorSet::kAvx512;
   }
 #endif
-  return std::min(found, kMostVectors);
+  return found;
 }
 
 /// What widest_vectors() says at most. For tests and measurements, and to be set only while no kernel runs.
@@ -79,13 +79,14 @@ PLEAT_TARGET_AVX2 void run_avx2(const Kernel& kernel) {
   kernel();
 }
 template <class Kernel>
-void run_baseline(const Kernel& kernel) {
+__attribute__((noinline)) void run_baseline(const Kernel& kernel) {
   kernel();
 }
 }  // namespace compiled
 
-/// Calls kernel(), compiled for `set`, which the processor must have. What it calls has to be defined in the same file
-/// or inline: it is compiled in.
+/// Calls kernel(), compiled for `set`, which the processor must have, or for kMostVectors. What it calls has to be
+/// defined in the same file or inline: it is compiled in. A kernel may hand a large part of itself, that is
+/// reached from several places, to run_wide again: then there is one copy of that part.
 template <class Kernel>
 void run_wide(VectorSet set, const Kernel& kernel) {
   if constexpr (kMostVectors >= VectorSet::kAvx512) {

@@ -34,7 +34,8 @@ PLEAT_KERNEL void for_each_eight(const CapsuleCandidateColumns& candidates, cons
 struct CapsuleTest {
   const CapsuleDetection& in;
   const CapsulePose& capsule;
-  std::uint32_t number;                                             // of the capsule
+  std::uint32_t number;  // of the capsule
+  VectorSet set;
   float reach = widest_radius(capsule) + in.thickness + in.margin;  // from the core
   Core lanes = Core(capsule, reach + kLaneRounding);
 
@@ -77,16 +78,17 @@ struct CapsuleTest {
   }
 
  private:
-  /// While there are `least` places.
-  static PLEAT_KERNEL void add_round(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) {
+  /// While there are `least` places. Rows are made out of line: compiled in at each call they would be most of the
+  /// library.
+  PLEAT_KERNEL void add_round(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) const {
     while (places.count >= least) {
-      rows.add_round(places, places.first_lanes(), stats);
+      run_wide(set, [&]() PLEAT_KERNEL_LAMBDA { rows.add_round(places, places.first_lanes(), stats); });
       places.drop_lanes();
     }
   }
-  static PLEAT_KERNEL void add_flat(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) {
+  PLEAT_KERNEL void add_flat(const CapsuleRows& rows, NearPlaces& places, std::uint32_t least, Stats& stats) const {
     while (places.count >= least) {
-      rows.add_flat(places, places.first_lanes(), stats);
+      run_wide(set, [&]() PLEAT_KERNEL_LAMBDA { rows.add_flat(places, places.first_lanes(), stats); });
       places.drop_lanes();
     }
   }
@@ -152,7 +154,8 @@ bool CapsuleDetection::validate() const {
 }
 
 void CapsuleDetection::run(Stats& stats) const {
-  run_wide(widest_vectors(), [&] {
+  const VectorSet set = widest_vectors();
+  run_wide(set, [&] {
     for (std::uint32_t c = 0; c < capsule_count; ++c) {
       if (c % kLanes == 0) blocks[c / kLanes] = CapsuleBlock{};
       blocks[c / kLanes].put(c % kLanes, capsules[c]);
@@ -160,7 +163,7 @@ void CapsuleDetection::run(Stats& stats) const {
     for (std::uint32_t c = 0; c < capsule_count; ++c) {
       const auto has_any = [&](FeatureKind kind) { return candidates->of(c, kind).count != 0; };
       if (std::any_of(std::begin(kFeatureKinds), std::end(kFeatureKinds), has_any)) {
-        CapsuleTest{*this, capsules[c], c}.run(stats);
+        CapsuleTest{*this, capsules[c], c, set}.run(stats);
       }
     }
   });
