@@ -1,16 +1,13 @@
 #!/usr/bin/env bash
-# Is a host that does as the README says served? package_test.sh BUILD [--archive] [CMAKE OPTION...]
+# Is a host that does as the README says served? package_test.sh BUILD|--archive [CMAKE OPTION...]
 # Takes the README's C out of it, builds it against the library of the folder BUILD as installed (CMake, pkg-config) and compiles it
-# in one tree with pleat. With --archive, which takes a minute, that tree is built and run, with the library as an archive, which
-# is then installed and found too. The options go to cmake.
+# in one tree with pleat. With --archive, which takes minutes, that tree is built and run, with the library as an archive, which
+# is then installed and found. The options go to cmake.
 set -euo pipefail
 here=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 root=$(dirname -- "$(dirname -- "$here")")
-build=$(cd -- "$1" && pwd)
-readonly here root build
+readonly here root build=$1
 shift
-archive=false
-[[ ${1-} != --archive ]] || { archive=true && shift; }
 work=$(mktemp -d)
 readonly work
 trap 'rm -rf -- "$work"' EXIT
@@ -54,15 +51,15 @@ by_pkg_config() { # title, prefix
 }
 
 options=("$@")
-install_to "$build" "$work/shared"
-host 'installed' host -DCMAKE_PREFIX_PATH="$work/shared"
-by_pkg_config 'installed, pkg-config' "$work/shared"
-if "$archive"; then
+if [[ $build == --archive ]]; then
   host 'in one tree, an archive' tree -DPLEAT_SOURCE="$root" -DPLEAT_SHARED=OFF
   install_to "$work/tree/pleat" "$work/static"
   host 'installed, an archive' static_host -DCMAKE_PREFIX_PATH="$work/static"
   by_pkg_config 'installed, an archive, pkg-config' "$work/static"
 else
+  install_to "$build" "$work/shared"
+  host 'installed' host -DCMAKE_PREFIX_PATH="$work/shared"
+  by_pkg_config 'installed, pkg-config' "$work/shared"
   compile tree sample -DPLEAT_SOURCE="$root"
   echo 'in one tree: compiles'
 fi
