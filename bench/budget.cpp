@@ -135,6 +135,7 @@ void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progre
   budget.cloth = scene.cloth_info(0);
   budget.folds_given_up = scene.stats().folds_given_up;
   budget.substeps_given_up = scene.stats().substeps_given_up;
+  budget.ticks_given_up = scene.stats().ticks_given_up;
   budget.invisible = scene.stats().invisible;
   quality.measure_rest(scene);
   budget.quality = quality.result();

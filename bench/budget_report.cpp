@@ -130,9 +130,10 @@ void print_budget(const demo::SceneDef& def, const Budget& budget) {
   for (const auto& [name, spread] : budget.stages) print_row(("  " + name).c_str(), spread);
   if (budget.allocations_per_frame) std::printf("%-28s %10.3f\n", "allocations a frame", *budget.allocations_per_frame);
   if (def.budget > 0.0) {
-    std::printf("given up for %g ms a tick     folds of %llu cloths, substeps of %llu\n", def.budget,
+    std::printf("given up for %g ms a tick     folds of %llu cloths, substeps of %llu, ticks of %llu\n", def.budget,
                 static_cast<unsigned long long>(budget.folds_given_up),
-                static_cast<unsigned long long>(budget.substeps_given_up));
+                static_cast<unsigned long long>(budget.substeps_given_up),
+                static_cast<unsigned long long>(budget.ticks_given_up));
   }
   if (budget.invisible > 0) {
     std::printf("out of sight                 %llu cloths\n", static_cast<unsigned long long>(budget.invisible));
@@ -164,6 +165,7 @@ nlohmann::ordered_json budget_json(const pleat_api& api, const demo::SceneDef& d
     json["budget_ms"] = def.budget;
     json["folds_given_up"] = budget.folds_given_up;
     json["substeps_given_up"] = budget.substeps_given_up;
+    json["ticks_given_up"] = budget.ticks_given_up;
   }
   if (budget.invisible > 0) json["invisible"] = budget.invisible;
   json["bytes_per_cloth"] = budget.cloth.bytes;

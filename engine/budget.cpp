@@ -13,45 +13,56 @@ namespace {
 constexpr float kOfTheNewest = 0.2f;  // in the mean pace: about ten ticks count
 constexpr float kLeastShare = 0.01f;  // of the budget, for cloths that are seen
 
-using Work = std::array<float, kMostGivenUp + 1>;
-
-Work work_of(const ClothRecord& cloth, std::uint32_t substeps) {
-  const Garment& g = cloth.garment();
-  const TessellationPattern* pattern = cloth.pattern();
+/// With so many substeps, and all else that it has.
+ClothWork work_of(const ClothRecord& cloth, std::uint32_t substeps) {
   if (cloth.substeps_taken == 0) return {};  // asleep, or new
-  if (!cloth.visible) return detail_work(g.particle_count, cloth.substeps_taken, 0, 0, false);
-  return detail_work(g.particle_count, substeps, has_folds_to_give(cloth) ? g.edge_count : 0,
-                     pattern != nullptr ? pattern->vertex_count : 0, cloth.settings.substeps == 0);
+  const TessellationPattern* pattern = cloth.visible ? cloth.pattern() : nullptr;
+  const bool folds = pattern != nullptr && has_folds_to_give(cloth);
+  return {.particles = cloth.garment().particle_count,
+          .substeps = substeps,
+          .folds = folds ? cloth.garment().edge_count : 0,
+          .drawn = pattern != nullptr ? pattern->vertex_count : 0};
+}
+
+OfSteps work_by_steps(const ClothRecord& cloth) {
+  return work_of(cloth, cloth.substeps_wanted).by_steps(has_substeps_to_give(cloth), has_ticks_to_give(cloth));
 }
 
 /// Of the last tick, with what had faded by then.
 float work_taken(const World& world) {
   float sum = 0.0f;
   for (const ClothRecord& cloth : world.clothes) {
-    sum += work_of(cloth, cloth.substeps_taken)[cloth.fold_share == 0.0f ? 1 : 0];
+    ClothWork work = work_of(cloth, cloth.substeps_taken);
+    if (cloth.fold_share == 0.0f) work.folds = 0;
+    sum += cloth.carried ? work.of_carrying() : work.of_tick();
   }
   return sum;
+}
+
+void give_up(World& world, ClothRecord& cloth, std::uint32_t steps) {
+  const std::uint32_t ticks = takes_one_tick_of(cloth);
+  cloth.given_up = steps;
+  if (takes_one_tick_of(cloth) != ticks) replan(std::as_const(world), cloth);
 }
 
 }  // namespace
 
 void keep_budget(World& world, float budget_ms, float cost_ms) {
   if (budget_ms == 0.0f) {
-    for (ClothRecord& cloth : world.clothes) cloth.given_up = 0;
-    world.pace = 0.0f;
+    for (ClothRecord& cloth : world.clothes) give_up(world, cloth, 0);
+    world.pace = world.scarcity = 0.0f;
     return;
   }
-  const std::size_t most = world.clothes.size();
-  world.detail.reserve(most), world.detail_order.reserve(most);
-  world.detail.resize(most), world.detail_order.resize(most);
+  world.detail.reserve(world.clothes.size());
+  world.detail.resize(world.clothes.size());
   std::size_t count = 0;
   float unseen = 0.0f;  // work
   for (const ClothRecord& cloth : world.clothes) {
-    const Work work = work_of(cloth, cloth.substeps_wanted);
+    const OfSteps work = work_by_steps(cloth);
     if (cloth.visible) {
       world.detail[count++] = {cloth.importance, work, cloth.given_up};
     } else {
-      unseen += work[0];
+      unseen += work[kMostGivenUp];
     }
   }
   if (const float work = work_taken(world); work > 0.0f) {
@@ -59,17 +70,16 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
   }
   // What nobody sees has nothing to give, and takes its part.
   const float left = std::max(budget_ms - world.pace * unseen, kLeastShare * budget_ms);
-  run(DetailChoice{.candidates = {world.detail.data(), count},
-                   .order = {world.detail_order.data(), count},
-                   .budget = left,
-                   .pace = world.pace});
+  world.scarcity = run(DetailChoice{
+      .candidates = {world.detail.data(), count}, .budget = left, .pace = world.pace, .scarcity = world.scarcity});
   count = 0;
-  for (ClothRecord& cloth : world.clothes) cloth.given_up = cloth.visible ? world.detail[count++].given_up : 0;
+  for (ClothRecord& cloth : world.clothes) give_up(world, cloth, cloth.visible ? world.detail[count++].given_up : 0);
 }
 
 void fade_substeps(ClothRecord& cloth, float dt) {
-  const float substeps = gives_up_substeps(cloth) ? 1.0f / static_cast<float>(cloth.given_up) : 1.0f;
-  cloth.substep_share = cloth.visible ? faded(cloth.substep_share, substeps, dt * kSubstepsFade) : kInvisibleSubsteps;
+  const bool yields = has_substeps_to_give(cloth);
+  const float share = yields ? 1.0f / static_cast<float>(kSubstepsParted[steps_given_up(cloth)]) : 1.0f;
+  cloth.substep_share = cloth.visible ? faded(cloth.substep_share, share, dt * kSubstepsFade) : share;
 }
 
 void fade_folds(World& world, ClothRecord& cloth, float dt) {

@@ -1,4 +1,4 @@
-// Level of detail: what cloths give up for a tick to keep to its time.
+// Level of detail: what cloths give up for a tick to keep to its time, and those that nobody sees anyway.
 #pragma once
 
 #include "engine/world.h"
@@ -14,13 +14,26 @@ void fade_folds(World& world, ClothRecord& cloth, float dt);
 /// The same of its substeps, which comes to nothing while it sleeps, but goes on.
 void fade_substeps(ClothRecord& cloth, float dt);
 
+/// Steps of detail that the cloth does without.
+inline std::uint32_t steps_given_up(const ClothRecord& cloth) { return cloth.visible ? cloth.given_up : kMostGivenUp; }
+
 inline bool has_folds_to_give(const ClothRecord& cloth) {
   return cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.pattern() != nullptr;
 }
 inline bool gives_up_folds(const ClothRecord& cloth) { return cloth.given_up > 0 && has_folds_to_give(cloth); }
-inline bool gives_up_substeps(const ClothRecord& cloth) { return cloth.given_up > 1 && cloth.settings.substeps == 0; }
 
-/// Of its substeps, what a cloth takes that nobody sees.
-inline constexpr float kInvisibleSubsteps = 1.0f / 6;
+inline bool has_substeps_to_give(const ClothRecord& cloth) { return cloth.settings.substeps == 0; }
+inline bool gives_up_substeps(const ClothRecord& cloth) {
+  return kSubstepsParted[cloth.given_up] > 1 && has_substeps_to_give(cloth);
+}
+
+/// Layers would miss each other, and what has no pins would stop in the air.
+inline bool has_ticks_to_give(const ClothRecord& cloth) {
+  return has_substeps_to_give(cloth) && cloth.settings.layer == 0 && cloth.garment().pins.size() != 0;
+}
+/// The cloth takes one of so many ticks.
+inline std::uint32_t takes_one_tick_of(const ClothRecord& cloth) {
+  return has_ticks_to_give(cloth) ? kTicksParted[steps_given_up(cloth)] : 1;
+}
 
 }  // namespace pleat

@@ -13,23 +13,22 @@
 #include "engine/budget.h"
 #include "engine/run.h"
 #include "engine/sleep.h"
+#include "engine/turns.h"
 #include "systems/frequency_bound.h"
 #include "systems/largest_stretch.h"
-#include "systems/rigid_carry.h"
-#include "systems/rigid_fit.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/contact_row.h"
-#include "systems/substep_bound.h"
 #endif
 
 namespace pleat {
 namespace {
 
-constexpr std::uint32_t kStiffSubsteps = 4;   // times as many as without stiff springs, at most
-constexpr std::uint32_t kMostForceSteps = 4;  // of a substep, where nothing but bending is stiff
-constexpr float kBendingHeld = 1.0f / 120;    // s, for how long its force is held where it is soft, at most
-constexpr float kLooseStart = 0.005f;         // elongation beyond the strain limit that a start may have
-constexpr int kRetries = 2;                   // of a tick that went wrong, each with twice the substeps, 128 at most
+constexpr std::uint32_t kStiffSubsteps = 4;         // times as many as without stiff springs, at most
+constexpr std::uint32_t kMostForceSteps = 4;        // of a substep, where nothing but bending is stiff
+constexpr float kBendingHeld = 1.0f / 120;          // s, for how long its force is held where it is soft, at most
+constexpr float kLooseStart = 0.005f;               // elongation beyond the strain limit that a start may have
+constexpr float kReach = 0.5f, kRoughReach = 1.0f;  // of bodies in a substep: systems/substep_bound.h
+constexpr int kRetries = 2;  // of a tick that went wrong, each with twice the substeps, 128 at most
 
 /// A start that is stretched or inside a body, as garments made for another body are, is pulled together and pushed out
 /// before it may move: the strain limit and the contacts would turn that into speed.
@@ -94,25 +93,6 @@ void run_substep(ClothTick& t) {
   if (t.cloth.settling > 0.0f) settle(t);
 }
 
-/// As many substeps as keep the cloth's relative motion to capsules in each below half their radius.
-std::uint32_t substeps_against_tunnelling([[maybe_unused]] const ClothTick& t, [[maybe_unused]] float dt) {
-#ifdef PLEAT_WITH_COLLISION
-  if (t.world.capsules.size() == 0 && t.world.meshes.empty()) return 1;
-  return run(SubstepBound{.particle_count = t.garment.particle_count,
-                          .position = t.position,
-                          .velocity = t.velocity,
-                          .origin = t.cloth.origin,
-                          .capsules = &t.world.capsules,
-                          .bodies = t.world.bodies.get(),
-                          .meshes = t.world.mesh_pointers.data(),
-                          .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
-                          .thickness = t.settings.thickness,
-                          .dt = dt});
-#else
-  return 1;
-#endif
-}
-
 StableStep stable_step(const ClothTick& t) {
   const pleat_cloth_settings& s = t.settings;
   const bool solved = s.integrator == PLEAT_INTEGRATOR_PROJECTED || s.integrator == PLEAT_INTEGRATOR_IMPLICIT_EULER;
@@ -132,7 +112,9 @@ void note(Notice& notice) {
 }
 
 std::uint32_t substeps_for(ClothTick& t, float dt) {
-  const std::uint32_t least = substeps_against_tunnelling(t, dt);
+  const bool rough = has_substeps_to_give(t.cloth) && steps_given_up(t.cloth) >= kRoughContact;
+  const float travel = travel_of_bodies(t, rough ? kRoughReach : kReach);
+  const auto least = static_cast<std::uint32_t>(std::ceil(std::max(travel, 1.0f)));
   const StableStep stable = stable_step(t);
   assert(stable.validate());
   const bool projected = t.settings.integrator == PLEAT_INTEGRATOR_PROJECTED;
@@ -204,15 +186,8 @@ void roll_back(ClothTick& t) {
 void fall_back(ClothTick& t) {
   roll_back(t);
   t.t0 = t.t1 = 1.0f;
-  const std::size_t n = t.garment.particle_count, pins = t.garment.pins.size();
-  clear(t.velocity, n);
-  if (pins != 0) {
-    run(RigidCarry{.motion = best_motion(t.pin_previous, t.pin_next, pins),
-                   .particle_count = n,
-                   .position = t.position,
-                   .velocity = t.velocity});
-  }
-  for (std::size_t k = 0; k < pins; ++k) t.position.set(t.garment.pins[k], t.pin_next[k]);
+  clear(t.velocity, t.garment.particle_count);
+  if (t.garment.pins.size() != 0) carry_with_pins(t);
   ++t.worker.stats.fallbacks;
   note(t.cloth.fallback);
 }
@@ -241,6 +216,8 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     cloth.contacts = {};
     return;
   }
+  cloth.carried = waits(t);
+  if (cloth.carried) return run_phase(t, Phase::kCarried);
   if (cloth.settling > 0.0f) begin_settling(t);
   fade_folds(world, cloth, dt);
   std::uint32_t n = substeps_for(t, dt);

@@ -384,8 +384,9 @@ typedef struct pleat_stats {
                                   had been, at rest, its pins where they should be. The log says so once */
   uint64_t sleeping;           /* cloths that slept through the last tick: see sleep_speed */
   uint64_t folds_given_up;     /* cloths that do without folds for the budget: see world_keep_budget */
-  uint64_t substeps_given_up;  /* cloths that do with a half or a third of their substeps */
+  uint64_t substeps_given_up;  /* cloths that do with a half, a third or a quarter of their substeps */
   uint64_t invisible;          /* cloths that nobody sees: see cloth_set_visible */
+  uint64_t ticks_given_up;     /* cloths that are seen and take one of two, four or eight ticks */
 } pleat_stats;
 
 /* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
@@ -524,18 +525,23 @@ typedef struct pleat_api {
    * particles where the cloth is not visible. */
   pleat_result (*cloth_bounds)(const pleat_world* world, pleat_cloth cloth, float low[3], float high[3]);
   /* Level of detail, to be called after each tick with what it took by the host's own clock: where it is more than the
-   * budget, cloths give up folds, then half of their substeps, then a third of the rest, the least important ones first
-   * and as many as seem to be needed; below .8 of it they take them back. Folds fade within a quarter of a second,
-   * substeps are halved within a second; of the substeps as many are kept as bodies need in order not to pass through,
-   * and cloths whose `substeps` are set keep theirs. The same numbers give the same bits. budget_ms = 0: all have full
-   * detail again. The level of the drawn triangles is the host's, see cloth_suggest_level: it owns the indices. */
+   * budget, cloths give up detail step by step, as much as seems to be needed, and below .8 of it they take it back.
+   *   step                                                              loss
+   *   no folds, which fade within a quarter of a second                 1
+   *   a half, a third, a quarter of the substeps, within two seconds    1.5, 2, 4
+   *   one tick of two, four, eight                                      12, 24, 48
+   * A step is given up where its loss times the cloth's importance is least. In ticks that it does without a cloth goes
+   * rigidly with its pins, and its own motion is slower by as much; it takes them all where it has no pins, lies in a
+   * layer, is less than two seconds old, or where bodies would meanwhile go against it by an eighth, a quarter, half of
+   * their radius. Bodies do not pass through, and cloths whose `substeps` are set keep all but folds. The same numbers
+   * give the same bits. budget_ms = 0: all have full detail again. The level of the drawn triangles is the host's, see
+   * cloth_suggest_level: it owns the indices. */
   pleat_result (*world_keep_budget)(pleat_world* world, float budget_ms, float cost_ms);
   /* For the budget: size on screen, say, of any unit, >= 0; 1 until it is set. May be called every frame. */
   pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);
   /* 0: nobody sees the cloth, as where its character is off the screen. Its surface is not drawn and cannot be read,
-   * and it takes a sixth of its substeps, or as many as it needs in order to be stable and not to let bodies through;
-   * where `substeps` is set it keeps those. 1, as at first: its surface is there again at once, its substeps over two
-   * seconds. May be called every frame. */
+   * and at once it does with as little as a budget can leave it: see world_keep_budget. 1, as at first: its surface is
+   * there again at once, and it takes all ticks, its substeps over two seconds. May be called every frame. */
   pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
   /* For rollback, replays and saved games: all that the bits of the ticks to come depend on, between two ticks. In it:
    * particles, pins, drawn surfaces, poses of bodies and whether they are enabled, what is due at the next tick, and

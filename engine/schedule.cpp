@@ -127,6 +127,8 @@ const char* phase_name(Phase phase) {
       return "check";
     case Phase::kFrameEnd:
       return "frame end";
+    case Phase::kCarried:
+      return "carried";
   }
   return "";
 }
@@ -215,6 +217,7 @@ void replan(World& world, const BodyCensus& before) {
 void tick(World& world, float dt) {
   const Busy busy(world);
   ++world.ticks;
+  world.turn = (world.turn + 1) % kTicksParted.back();
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;
   for (ClothRecord& cloth : world.clothes) {
     ClothTick t(world, world.workers[0], cloth);

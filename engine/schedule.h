@@ -13,6 +13,7 @@
 //     substep end                 velocities, and nothing that is not finite
 //     check                       once the substeps are done; where it fails they begin anew, see cloth_tick.h
 //     frame end                   the drawn surface
+//     carried                     in place of all that in ticks that it does without, far off or unseen: turns.h
 #pragma once
 
 #include "engine/world.h"

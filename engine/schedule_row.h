@@ -1,6 +1,7 @@
 // What the files of the schedule's rows share: above all, why a row may be left out.
 #pragma once
 
+#include "engine/budget.h"
 #include "engine/run.h"
 #include "engine/schedule_table.h"
 #ifdef PLEAT_WITH_COLLISION
@@ -18,6 +19,10 @@ inline const char* with_projection(const World&, const ClothRecord& c) {
   return c.settings.integrator != PLEAT_INTEGRATOR_PROJECTED ? "edges are forces"
          : c.settings.stiffness == 0.0f                      ? "stiffness is 0"
                                                              : kNeeded;
+}
+
+inline const char* without_some_ticks(const World&, const ClothRecord& c) {
+  return takes_one_tick_of(c) == 1 ? "the cloth takes every tick" : kNeeded;
 }
 
 inline const char* with_colliders(const World& w, const ClothRecord&) {

@@ -1,5 +1,6 @@
-// Rows at the end of a frame: what was left behind, and the drawn surface.
+// Rows at the end of a frame: what was left behind, and the drawn surface; and of ticks that a cloth does without.
 #include "engine/schedule_row.h"
+#include "engine/turns.h"
 #include "systems/stray_carry.h"
 #ifdef PLEAT_WITH_SMOOTHING
 #include "systems/drawn_normals.h"
@@ -210,6 +211,11 @@ constexpr Row kRows[] = {
                          .tangent = t.drawn_tangent,
                          .handedness = t.drawn_handedness});
      }},
+#endif
+
+    {Phase::kCarried, "carry_with_pins", without_some_ticks, carry_with_pins},
+#ifdef PLEAT_WITH_SMOOTHING
+    {Phase::kCarried, "carry_surface", where_seen<without_some_ticks>, carry_surface},
 #endif
 };
 

@@ -21,9 +21,10 @@ enum class Phase : std::uint32_t {
   kFriction,
   kSubstepEnd,
   kCheck,
-  kFrameEnd
+  kFrameEnd,
+  kCarried
 };
-inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::kFrameEnd) + 1;
+inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::kCarried) + 1;
 
 /// Of a substep's sweeps, the last: they go over the edges alone and pull no farther than their rest lengths.
 inline constexpr std::uint32_t kExactSweeps = 3;
@@ -53,6 +54,7 @@ struct ClothTick {
   bool deep = false;               // a start inside a body, which it is coming out of
   Box capsules_sought;             // in which the worker's capsules are all that there are in this tick
   LayersAround layers_around;      // in this tick
+  RigidMotion carry;               // of the pins, in a tick that the cloth does without
   double time = 0.0;               // s, when the present substep begins
   Vec3 air;                        // m/s, velocity of the air now
 

@@ -15,7 +15,7 @@ namespace pleat::call {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x54414c50;  // "PLAT", and which end of a number comes first
-constexpr std::uint32_t kFormat = 3;          // one more whenever the list below changes
+constexpr std::uint32_t kFormat = 4;          // one more whenever the list below changes
 
 /// Pairs of a cloth with itself or with those below it, in the order in which they are found.
 template <class Io, class Pairs>
@@ -165,6 +165,9 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
   number(io, "detail", cloth.given_up, {0.0, kMostGivenUp});
   number(io, "detail", cloth.fold_share, kShare);
   number(io, "detail", cloth.substep_share, kShare);
+  flag(io, "detail", cloth.carried);
+  number(io, "detail", cloth.travelled, kPositive);
+  number(io, "detail", cloth.young, kPositive);
   number(io, "bending's time", cloth.bending_left, kFinite);
   number(io, "calm", cloth.calm, kPositive);
   number(io, "settling", cloth.settling, kPositive);
@@ -207,6 +210,8 @@ void visit(W& world, Io& io, std::uint64_t bytes) {
   visit_shape(world, io, bytes);
   number(io, "time", world.time, kTime);
   number(io, "pace", world.pace, kPositive);
+  number(io, "scarcity", world.scarcity, kPositive);
+  number(io, "turn", world.turn, {0.0, kTicksParted.back() - 1.0});
   visit_bodies(world, io);
   for (auto& cloth : world.clothes) visit_cloth(world, io, cloth);
 }

@@ -108,8 +108,7 @@ World::World(const pleat_world_def& definition)
       planes(&memory),
       mesh_pointers(&memory),
       workers(&memory),
-      detail(&memory),
-      detail_order(&memory) {
+      detail(&memory) {
   workers.reserve(def.workers);
   for (std::uint32_t k = 0; k < def.workers; ++k) workers.emplace_back(k, &memory);
   if (def.workers == 1 || def.parallel_for != nullptr) return;

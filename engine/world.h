@@ -56,6 +56,9 @@ using Plan = std::uint64_t;
 /// For how long a start that is stretched or inside a body is held at rest at most, s.
 inline constexpr float kSettling = 0.25f;
 
+/// In which a cloth finds its shape before it may wait, s.
+inline constexpr float kYoung = 2.0f;
+
 struct ClothRecord {
   GarmentRecord* source = nullptr;
   pleat_cloth_settings settings{};
@@ -77,6 +80,9 @@ struct ClothRecord {
   float fold_share = 1.0f;                   // of their height, with which folds are drawn
   bool sides_known = false;                  // to which folds went when they were last drawn
   float substep_share = 1.0f;                // that is taken of those wanted
+  bool carried = false;                      // in the last tick, which it did without: turns.h
+  float travelled = 0.0f;                    // by bodies against it since it took one, of what they may
+  float young = kYoung;                      // s, for how much longer it takes every tick
   std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
   float bending_left = 0.0f;                 // s, for how much longer its force of bending is held
   float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
@@ -157,9 +163,10 @@ struct World {
   mutable std::pmr::vector<Worker> workers;        // at least one; scratch, also for questions
   std::unique_ptr<ThreadPool, MemoryDelete> pool;  // where there are more and the host has no parallel_for
 
-  Column<DetailCandidate> detail;      // scratch of the budget, empty without one
-  Column<std::uint32_t> detail_order;  // the same
-  float pace = 0.0f;                   // ms a unit of work, by what the host told of the last ticks; 0: not yet
+  Column<DetailCandidate> detail;  // scratch of the budget, empty without one
+  float pace = 0.0f;               // ms a unit of work, by what the host told of the last ticks; 0: not yet
+  float scarcity = 0.0f;           // of time, in the unit of importance: systems/detail_choice.h
+  std::uint32_t turn = 0;          // below 8: turns.h
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;

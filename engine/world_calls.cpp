@@ -134,6 +134,7 @@ pleat_result world_stats(const pleat_world* handle, pleat_stats* stats) {
       if (!cloth.visible) ++all.invisible;
       if (gives_up_folds(cloth)) ++all.folds_given_up;
       if (gives_up_substeps(cloth)) ++all.substeps_given_up;
+      if (cloth.visible && takes_one_tick_of(cloth) > 1) ++all.ticks_given_up;
     }
     all.allocations = world.memory.allocations();
     all.bytes = world.memory.bytes();

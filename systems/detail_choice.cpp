@@ -2,87 +2,84 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace pleat {
 namespace {
 
-constexpr float kWorkOfFold = 0.25f, kWorkOfDrawn = 0.2f;  // in particles times substeps
-constexpr float kAimFromAbove = 0.95f, kCheap = 0.8f, kAimFromBelow = 0.9f;
-constexpr float kClearlyLess = 0.8f;  // times as important
+constexpr float kWorkOfFold = 0.25f, kWorkOfDrawn = 0.2f, kWorkOfCarrying = 0.02f;  // in particles times substeps
+constexpr float kAimFromAbove = 0.95f, kCheap = 0.8f, kAimFromBelow = 0.9f;         // of the budget
+constexpr float kClearlyLess = 0.8f;  // of the scarcity at which a step was given up
+constexpr float kEarlier = 0.2f;      // how much less important the first of equals counts than the last
+constexpr float kFine = 1e-4f;        // of scarcity, to which it is found, in
+constexpr int kHalvings = 60;         // of a range, at most
+
+/// The most steps whose loss is no more than `most`.
+std::uint32_t steps_within(float most) {
+  return static_cast<std::uint32_t>(std::ranges::upper_bound(kLoss, most) - kLoss.begin()) - 1;
+}
 
 }  // namespace
 
-std::array<float, kMostGivenUp + 1> detail_work(std::uint32_t particles, std::uint32_t substeps, std::uint32_t folds,
-                                                std::uint32_t drawn, bool shrinks) {
-  const auto dynamics = [&](std::uint32_t share) {
-    const std::uint32_t taken = shrinks && substeps != 0 ? std::max(substeps / share, 1u) : substeps;
-    return static_cast<float>(particles) * static_cast<float>(taken);
-  };
-  const float surface = kWorkOfDrawn * static_cast<float>(drawn), folding = kWorkOfFold * static_cast<float>(folds);
-  return {dynamics(1) + surface + folding, dynamics(1) + surface, dynamics(2) + surface, dynamics(3) + surface};
+float ClothWork::of_tick() const {
+  return static_cast<float>(particles) * static_cast<float>(substeps) + kWorkOfFold * static_cast<float>(folds) +
+         kWorkOfDrawn * static_cast<float>(drawn);
+}
+
+float ClothWork::of_carrying() const { return kWorkOfCarrying * static_cast<float>(particles + drawn); }
+
+OfSteps ClothWork::by_steps(bool yields, bool waits) const {
+  OfSteps work{};
+  for (std::uint32_t step = 0; step <= kMostGivenUp; ++step) {
+    ClothWork left = *this;
+    if (step != 0) left.folds = 0;
+    if (yields && substeps != 0) left.substeps = std::max(substeps / kSubstepsParted[step], 1u);
+    const float taken = waits ? 1.0f / static_cast<float>(kTicksParted[step]) : 1.0f;
+    work[step] = taken * left.of_tick() + (1.0f - taken) * left.of_carrying();
+  }
+  return work;
 }
 
 bool DetailChoice::validate() const {
-  return order.size() == candidates.size() && std::isfinite(budget) && budget > 0.0f && std::isfinite(pace) &&
-         pace >= 0.0f &&
-         std::ranges::all_of(candidates, [](const DetailCandidate& c) { return c.given_up <= kMostGivenUp; });
+  return std::isfinite(budget) && budget > 0.0f && std::isfinite(pace) && pace >= 0.0f && std::isfinite(scarcity) &&
+         scarcity >= 0.0f && std::ranges::all_of(candidates, [](const DetailCandidate& c) {
+           return c.given_up <= kMostGivenUp && std::isfinite(c.importance) && c.importance >= 0.0f;
+         });
+}
+
+std::uint32_t DetailChoice::step_at(std::size_t candidate, float scarce) const {
+  if (scarce == 0.0f) return 0;
+  const DetailCandidate& c = candidates[candidate];
+  const float place = static_cast<float>(candidate) / static_cast<float>(candidates.size());
+  const float counts = c.importance * (1.0f - kEarlier * (1.0f - place));
+  if (!(counts > 0.0f)) return kMostGivenUp;
+  return std::clamp(c.given_up, steps_within(scarce / counts), steps_within(scarce / (kClearlyLess * counts)));
+}
+
+float DetailChoice::expected_at(float scarce) const {
+  float work = 0.0f;
+  for (std::size_t i = 0; i < candidates.size(); ++i) work += candidates[i].work[step_at(i, scarce)];
+  return pace * work;
+}
+
+float DetailChoice::least_that_keeps(float share_of_budget, float low, float high) const {
+  for (int k = 0; k < kHalvings && high - low > kFine * high; ++k) {
+    const float middle = 0.5f * (low + high);
+    (expected_at(middle) <= share_of_budget * budget ? high : low) = middle;
+  }
+  return high;
 }
 
 float DetailChoice::run() const {
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [this](std::uint32_t i, std::uint32_t j) {
-    const float a = candidates[i].importance, b = candidates[j].importance;
-    return a != b ? a < b : i < j;
-  });
-  exchange();
-  float work = 0.0f;
-  for (const DetailCandidate& c : candidates) work += c.work_now();
-  const float expected = pace * work;
-  return expected > budget ? give_up(expected) : expected < kCheap * budget ? take_back(expected) : expected;
-}
-
-/// Whoever is clearly more important than another shall have given up no more.
-void DetailChoice::exchange() const {
-  for (std::size_t low = 0, high = order.size(); low < high;) {
-    DetailCandidate& less = candidates[order[low]];
-    DetailCandidate& more = candidates[order[high - 1]];
-    if (less.importance >= kClearlyLess * more.importance) return;
-    if (more.given_up == 0) {
-      --high;
-    } else if (less.given_up == kMostGivenUp) {
-      ++low;
-    } else {
-      if (more.given_up > less.given_up) std::swap(more.given_up, less.given_up);
-      ++low, --high;
-    }
+  float scarce = scarcity;
+  if (const float expected = expected_at(scarce); expected > budget) {
+    float most = scarce;  // at which all is given up
+    for (const DetailCandidate& c : candidates) most = std::max(most, kLoss.back() * c.importance);
+    scarce = least_that_keeps(kAimFromAbove, scarce, most);
+  } else if (expected < kCheap * budget && scarce > 0.0f) {
+    scarce = expected_at(0.0f) <= kAimFromBelow * budget ? 0.0f : least_that_keeps(kAimFromBelow, 0.0f, scarce);
   }
-}
-
-float DetailChoice::give_up(float expected) const {
-  for (const std::uint32_t i : order) {
-    DetailCandidate& c = candidates[i];
-    for (std::uint32_t step = c.given_up + 1; step <= kMostGivenUp; ++step) {
-      if (expected <= kAimFromAbove * budget) return expected;
-      if (c.work[step] >= c.work_now()) continue;
-      expected -= pace * (c.work_now() - c.work[step]);
-      c.given_up = step;
-    }
-  }
-  return expected;
-}
-
-float DetailChoice::take_back(float expected) const {
-  for (std::size_t k = order.size(); k-- > 0;) {
-    DetailCandidate& c = candidates[order[k]];
-    while (c.given_up > 0) {
-      const float dearer = pace * (c.work[c.given_up - 1] - c.work_now());
-      if (expected + dearer > kAimFromBelow * budget) return expected;
-      expected += dearer;
-      --c.given_up;
-    }
-  }
-  return expected;
+  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].given_up = step_at(i, scarce);
+  return scarce;
 }
 
 }  // namespace pleat

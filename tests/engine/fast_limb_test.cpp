@@ -99,7 +99,7 @@ TEST(FastLimb, TakesTheClothAlongWhereNobodySeesIt) {
     std::uint64_t fast_bodies = 0;
     std::uint32_t taken = 0;
     EXPECT_GT(cloth_above_limb(kind, 0, fast_bodies, taken, false), 0.0f);
-    EXPECT_GT(taken, 12u) << "more than a sixth";
+    EXPECT_GT(taken, 12u) << "more than a quarter";
   }
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -10,21 +12,20 @@
 namespace pleat {
 namespace {
 
-/// Cloths of 100 units of work, of which 10, then 40, then 20 can be given up.
+constexpr OfSteps kWork = {100, 90, 60, 50, 30, 20, 12, 8};
+
 struct Crowd {
   std::vector<DetailCandidate> candidates;
-  std::vector<std::uint32_t> order;
+  float scarcity = 0.0f;
 
-  explicit Crowd(const std::vector<float>& importance) : order(importance.size()) {
-    for (const float value : importance) {
-      candidates.push_back({.importance = value, .work = {100.0f, 90.0f, 50.0f, 30.0f}});
-    }
+  explicit Crowd(const std::vector<float>& importance) {
+    for (const float value : importance) candidates.push_back({.importance = value, .work = kWork});
   }
   DetailChoice job(float budget, float pace) {
-    return {.candidates = candidates, .order = order, .budget = budget, .pace = pace};
+    return {.candidates = candidates, .budget = budget, .pace = pace, .scarcity = scarcity};
   }
-  /// When a tick takes `cost` now.
-  float run(float budget, float cost) { return job(budget, cost / work()).run(); }
+  /// A unit of work takes a millisecond.
+  void keep(float budget) { scarcity = job(budget, 1.0f).run(); }
   float work() const {
     float sum = 0.0f;
     for (const DetailCandidate& c : candidates) sum += c.work_now();
@@ -39,70 +40,106 @@ struct Crowd {
 using Steps = std::vector<std::uint32_t>;
 
 TEST(DetailChoice, RefusesWhatMakesNoSense) {
+  constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
   Crowd crowd({1, 2});
   const DetailChoice good = crowd.job(1.0f, 2.0f);
   EXPECT_TRUE(good.validate());
+  for (float DetailChoice::*field : {&DetailChoice::budget, &DetailChoice::pace, &DetailChoice::scarcity}) {
+    for (const float value : {-1.0f, kNotANumber}) {
+      DetailChoice bad = good;
+      bad.*field = value;
+      EXPECT_FALSE(bad.validate());
+    }
+  }
   DetailChoice bad = good;
-  bad.order = bad.order.first(1);
+  bad.budget = 0.0f;
   EXPECT_FALSE(bad.validate());
-  bad = good, bad.budget = 0.0f;
-  EXPECT_FALSE(bad.validate());
-  bad = good, bad.pace = -1.0f;
-  EXPECT_FALSE(bad.validate());
-  bad = good, bad.pace = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(bad.validate());
-  crowd.candidates[1].given_up = kMostGivenUp + 1;
+  crowd.candidates[1].importance = kNotANumber;
+  EXPECT_FALSE(good.validate());
+  crowd.candidates[1] = {.given_up = kMostGivenUp + 1};
   EXPECT_FALSE(good.validate());
 }
 
 TEST(DetailChoice, WithinTheBudgetAllKeepTheirDetail) {
-  Crowd crowd({1, 2, 3});
-  EXPECT_FLOAT_EQ(crowd.run(10.0f, 9.9f), 9.9f);
+  Crowd crowd({1, 2, 0});
+  crowd.keep(300.0f);
   EXPECT_EQ(crowd.given_up(), (Steps{0, 0, 0}));
+  EXPECT_EQ(crowd.scarcity, 0.0f);
 }
 
-TEST(DetailChoice, TheLeastImportantGiveUpFirstAndNoMoreThanIsNeeded) {
-  Crowd crowd({3, 1, 2});
-  // 300 units in 3 ms: 2.6 ms leave 247 units, that is, 53 less. The second has 70 to give, of which 50 are not enough.
-  EXPECT_NEAR(crowd.run(2.6f, 3.0f), 2.3f, 1e-5f);
+TEST(DetailChoice, WhoMattersLeastGivesUpFirstAndNoMoreThanIsNeeded) {
+  Crowd crowd({100, 1, 99});
+  crowd.keep(270.0f);  // 256 is wanted: the second gives up half of its substeps, too
   EXPECT_EQ(crowd.given_up(), (Steps{0, 3, 0}));
-  EXPECT_NEAR(crowd.run(2.0f, 2.3f), 1.8f, 1e-5f);
-  EXPECT_EQ(crowd.given_up(), (Steps{0, 3, 2}));
+  crowd.keep(215.0f);  // 204 is more than the second can save
+  EXPECT_EQ(crowd.given_up()[1], kMostGivenUp);
+  EXPECT_EQ(crowd.given_up()[0] + crowd.given_up()[2], 1u);
+}
+
+TEST(DetailChoice, OneThatCountsTwiceAsMuchGivesUpLess) {
+  Crowd crowd({1, 2});
+  for (float budget = 195.0f; budget > 20.0f; budget -= 5.0f) {
+    crowd.keep(budget);
+    EXPECT_GE(crowd.given_up()[0], crowd.given_up()[1]) << budget;
+    EXPECT_LE(crowd.given_up()[0], crowd.given_up()[1] + 3) << budget;
+  }
+}
+
+TEST(DetailChoice, AmongEqualsTheFirstGiveUpFirst) {
+  Crowd crowd({1, 1, 1, 1});
+  crowd.keep(390.0f);
+  EXPECT_EQ(crowd.given_up(), (Steps{1, 1, 1, 0}));
 }
 
 TEST(DetailChoice, WhatCannotBeKeptIsKeptAsNearlyAsPossible) {
-  Crowd crowd({1, 1, 1});
-  EXPECT_NEAR(crowd.run(0.1f, 3.0f), 0.9f, 1e-5f);
-  EXPECT_EQ(crowd.given_up(), (Steps{3, 3, 3}));
+  Crowd crowd({1, 0, 1e30f});
+  crowd.keep(0.1f);
+  EXPECT_EQ(crowd.given_up(), Steps(3, kMostGivenUp));
 }
 
-TEST(DetailChoice, TheMostImportantTakeBackFirst) {
-  Crowd crowd({3, 1, 2});
-  crowd.run(0.1f, 3.0f);
-  EXPECT_NEAR(crowd.run(1.9f, 0.9f), 1.6f, 1e-5f);  // 70 units fit under 1.71 ms, the next 20 would not
-  EXPECT_EQ(crowd.given_up(), (Steps{0, 3, 3}));
-  crowd.run(100.0f, 1.6f);
+TEST(DetailChoice, DetailComesBack) {
+  Crowd crowd({3, 1, 0});
+  crowd.keep(60.0f);
+  const Steps scarce = crowd.given_up();
+  crowd.keep(250.0f);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(crowd.given_up()[i], scarce[i]);
+  EXPECT_GE(crowd.work(), 0.75f * 250.0f);
+  EXPECT_LE(crowd.work(), 0.9f * 250.0f);
+  crowd.keep(1000.0f);
   EXPECT_EQ(crowd.given_up(), (Steps{0, 0, 0}));
 }
 
-TEST(DetailChoice, AStepThatSavesNothingIsPassedOver) {
-  Crowd crowd({1, 2});
-  crowd.candidates[0].work = {100.0f, 100.0f, 50.0f, 50.0f};
-  crowd.candidates[1].work = {};  // asleep
-  crowd.run(0.1f, 1.0f);
-  EXPECT_EQ(crowd.given_up(), (Steps{2, 0}));
+TEST(DetailChoice, ACalmBudgetChangesNothingUntilImportanceDoesClearly) {
+  Crowd crowd({1, 10});
+  crowd.keep(175.0f);
+  const Steps before = crowd.given_up();
+  ASSERT_GT(before[0], before[1]);
+  crowd.candidates[0].importance = 1.05f, crowd.candidates[1].importance = 9.5f;
+  crowd.keep(175.0f);
+  EXPECT_EQ(crowd.given_up(), before);
+  std::swap(crowd.candidates[0].importance, crowd.candidates[1].importance);
+  for (int tick = 0; tick < 3; ++tick) crowd.keep(175.0f);
+  EXPECT_EQ(crowd.given_up()[0], before[1]);
+  EXPECT_GE(crowd.given_up()[1], before[0] - 1);
 }
 
-TEST(DetailChoice, WhoeverBecomesImportantTakesThePlaceOfAnother) {
-  Crowd crowd({1, 2, 3});
-  crowd.run(2.6f, 3.0f);
-  ASSERT_EQ(crowd.given_up(), (Steps{3, 0, 0}));
-  crowd.candidates[0].importance = 2.4f;  // not clearly more than 2
-  crowd.run(2.6f, 2.3f);
-  EXPECT_EQ(crowd.given_up(), (Steps{3, 0, 0}));
-  crowd.candidates[0].importance = 2.6f;
-  crowd.run(2.6f, 2.3f);
-  EXPECT_EQ(crowd.given_up(), (Steps{0, 3, 0}));
+TEST(DetailChoice, PropertyTheBudgetIsKeptWithNoMoreThanThat) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> decades(-3.0f, 3.0f), shares(0.1f, 0.95f);
+  for (int crowd_number = 0; crowd_number < 200; ++crowd_number) {
+    std::vector<float> values(100);
+    for (float& value : values) value = std::pow(10.0f, decades(random));
+    Crowd crowd(values);
+    const float budget = shares(random) * crowd.work();
+    crowd.keep(budget);
+    EXPECT_LE(crowd.work(), 0.95f * budget);
+    EXPECT_GE(crowd.work(), 0.95f * budget - 30.0f) << "one step of one cloth";
+    for (const DetailCandidate& c : crowd.candidates) {
+      EXPECT_LE(0.8f * kLoss[c.given_up] * c.importance, crowd.scarcity);
+      const std::uint32_t next = std::min(c.given_up + 1, kMostGivenUp);
+      EXPECT_TRUE(next == c.given_up || kLoss[next] * c.importance > crowd.scarcity);
+    }
+  }
 }
 
 TEST(DetailChoice, PropertyMeasuredTimesThatWaverSettle) {
@@ -114,8 +151,8 @@ TEST(DetailChoice, PropertyMeasuredTimesThatWaverSettle) {
     for (float& value : values) value = importance(random);
     Crowd crowd(values);
     const auto milliseconds = [&] {
-      float sum = 1.0f;  // that no cloth can save
-      for (const DetailCandidate& c : crowd.candidates) sum += 1e-3f * c.work[std::min(c.given_up, 2u)];
+      float sum = 0.3f;  // that no cloth can save
+      for (const DetailCandidate& c : crowd.candidates) sum += 1e-3f * c.work[std::min(c.given_up, 6u)];
       return sum;
     };
     float pace = milliseconds() / crowd.work();
@@ -123,24 +160,32 @@ TEST(DetailChoice, PropertyMeasuredTimesThatWaverSettle) {
     for (int tick = 0; tick < 600; ++tick) {
       const Steps before = crowd.given_up();
       pace += 0.2f * (milliseconds() * noise(random) / crowd.work() - pace);
-      crowd.job(budget, pace).run();
+      crowd.scarcity = crowd.job(budget, pace).run();
       if (tick >= 300 && crowd.given_up() != before) ++changes;
     }
     EXPECT_LE(changes, 3) << budget;
-    EXPECT_TRUE(milliseconds() <= 1.05f * budget || crowd.given_up() == Steps(40, 3)) << budget;
+    EXPECT_TRUE(milliseconds() <= 1.05f * budget || crowd.given_up() == Steps(40, kMostGivenUp)) << budget;
     EXPECT_TRUE(milliseconds() >= 0.7f * budget || crowd.given_up() == Steps(40, 0)) << budget;
   }
 }
 
-TEST(DetailWork, FallsStepByStepAndStopsAtOneSubstep) {
-  const auto work = detail_work(66, 12, 176, 1000, true);
-  EXPECT_GT(work[0], work[1]);
+TEST(ClothWork, FallsStepByStep) {
+  const ClothWork cloth{.particles = 66, .substeps = 12, .folds = 176, .drawn = 1000};
+  const OfSteps work = cloth.by_steps(true, true);
+  EXPECT_TRUE(std::ranges::is_sorted(work, std::greater()));
+  EXPECT_FLOAT_EQ(work[0], cloth.of_tick());
   EXPECT_FLOAT_EQ(work[1] - work[2], 66.0f * 6.0f);
   EXPECT_FLOAT_EQ(work[2] - work[3], 66.0f * 2.0f);
-  const auto one = detail_work(66, 1, 0, 0, true);
-  EXPECT_EQ(one[0], one[3]);
-  const auto fixed = detail_work(66, 16, 176, 1000, false);
-  EXPECT_EQ(fixed[1], fixed[3]);
+  EXPECT_FLOAT_EQ(work[5], 0.5f * (work[4] + cloth.of_carrying()));
+}
+
+TEST(ClothWork, WhatCannotBeGivenUpStays) {
+  const ClothWork one{.particles = 66, .substeps = 1, .drawn = 0};
+  EXPECT_EQ(one.by_steps(true, false)[0], one.by_steps(true, false)[kMostGivenUp]);
+  const ClothWork many{.particles = 66, .substeps = 16, .folds = 176, .drawn = 1000};
+  EXPECT_EQ(many.by_steps(false, false)[1], many.by_steps(false, false)[kMostGivenUp]);
+  EXPECT_GT(many.by_steps(false, false)[0], many.by_steps(false, false)[1]);
+  EXPECT_EQ(ClothWork{}.by_steps(true, true), OfSteps{});
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "tests/systems/sheet.h"
 
 namespace pleat {
@@ -44,6 +48,8 @@ struct Crossing {
   }
 };
 
+float rounded(const SubstepBound& job) { return std::ceil(std::max(job.run(), 1.0f)); }
+
 TEST(SubstepBound, RefusesToRunWithAFieldMissing) {
   Crossing c({0, 0.2f, 0}, {0, -0.2f, 0});
   const SubstepBound good = c.job();
@@ -62,24 +68,24 @@ TEST(SubstepBound, RefusesToRunWithAFieldMissing) {
 }
 
 TEST(SubstepBound, HalfTheRadiusASubstep) {
-  EXPECT_EQ(Crossing({0, 0.2f, 0}, {0, -0.19f, 0}).job().run(), 16u);  // .39 m in steps of .025 m
-  EXPECT_EQ(Crossing({0, 0.2f, 0}, {0, 0.2f, 0}).job().run(), 1u);
+  EXPECT_EQ(rounded(Crossing({0, 0.2f, 0}, {0, -0.19f, 0}).job()), 16);  // .39 m in steps of .025 m
+  EXPECT_EQ(rounded(Crossing({0, 0.2f, 0}, {0, 0.2f, 0}).job()), 1);
 }
 
 TEST(SubstepBound, BodiesFarAwayDisabledOrCarryingTheClothAskForNothing) {
-  EXPECT_EQ(Crossing({5, 0.2f, 0}, {5, -0.2f, 0}).job().run(), 1u);
+  EXPECT_EQ(rounded(Crossing({5, 0.2f, 0}, {5, -0.2f, 0}).job()), 1);
   Crossing disabled({0, 0.2f, 0}, {0, -0.2f, 0});
   disabled.capsules.enabled[0] = 0;
-  EXPECT_EQ(disabled.job().run(), 1u);
+  EXPECT_EQ(rounded(disabled.job()), 1);
   Crossing carrying({0, 0.2f, 0}, {0, -0.2f, 0});
   carrying.set_velocity(Vec3{0, -0.4f, 0} * (1.0f / kDt));
-  EXPECT_EQ(carrying.job().run(), 1u);
+  EXPECT_EQ(rounded(carrying.job()), 1);
 }
 
 TEST(SubstepBound, MovingClothCountsToo) {
   Crossing c({0, 0.1f, 0}, {0, 0.1f, 0});
   c.sheet.velocity.set(5, {0, 0.16f * 30.0f, 0});  // the mean of 16 particles moves .01 m, this one .15 m more
-  EXPECT_EQ(c.job().run(), 7u);                    // .16 m in steps of .025 m
+  EXPECT_EQ(rounded(c.job()), 7);                  // .16 m in steps of .025 m
 }
 
 TEST(SubstepBound, AnyMotionHasAnAnswer) {
@@ -99,16 +105,73 @@ TEST(SubstepBound, AMeshAsFarAsItsFeaturesAreLookedFor) {
   job.meshes = meshes, job.mesh_count = 1;
   const auto go = [&](const Vec3& from, const Vec3& to) {
     ball.previous.view().set(0, from), ball.next.view().set(0, to);
-    return job.run();
+    return rounded(job);
   };
-  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 27u);  // .4 m in steps of .015 m
-  EXPECT_EQ(go({0, 0.2f, 0}, {0, 0.2f, 0}), 1u);
-  EXPECT_EQ(go({5, 0.2f, 0}, {5, -0.2f, 0}), 1u);  // beside the cloth
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 27);  // .4 m in steps of .015 m
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, 0.2f, 0}), 1);
+  EXPECT_EQ(go({5, 0.2f, 0}, {5, -0.2f, 0}), 1);  // beside the cloth
   c.set_velocity({0, -12, 0});
-  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1u);  // carries it along
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1);  // carries it along
   ball.enabled = false;
   c.set_velocity({});
-  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1u);
+  EXPECT_EQ(go({0, 0.2f, 0}, {0, -0.2f, 0}), 1);
+}
+
+TEST(SubstepBound, OfALimbOnlyWhatComesNear) {
+  Crossing c({0, 0, 0}, {0, 0, 0});
+  // From the cloth's edge at x = .5 m, where it is hinged, 2 m outwards: the far end swings by 1 m, what is over the
+  // cloth or within a radius and half a way of it by less.
+  c.capsules.previous_a.view().set(0, {0.5f, 0.02f, 0}), c.capsules.next_a.view().set(0, {0.5f, 0.02f, 0});
+  c.capsules.previous_b.view().set(0, {2.5f, 0.02f, -0.1f}), c.capsules.next_b.view().set(0, {2.5f, 0.02f, 0.1f});
+  const float ways = 0.2f * (kRadius + kThickness + 0.1f) / 2.0f;  // m, at the end of the part that counts
+  EXPECT_NEAR(c.job().run(), ways / (0.5f * (kRadius + kThickness)), 0.02f);
+  // Seen from afar it all counts.
+  c.capsules.previous_b.view().set(0, {0.5f, 0.02f, -0.1f}), c.capsules.next_b.view().set(0, {0.5f, 0.02f, 0.1f});
+  EXPECT_NEAR(c.job().run(), 0.2f / (0.5f * (kRadius + kThickness)), 1e-4f);
+}
+
+TEST(SubstepBound, PropertyWhatTheClippedPartAsksForIsNoLessThanWhatTouches) {
+  // Whatever point of the limb is in the cloth's box at any time of the tick, its way is counted.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> where(-1.0f, 1.0f);
+  const auto point = [&] { return Vec3{where(random), where(random), where(random)}; };
+  int touching = 0;
+  for (int round = 0; round < 500; ++round) {
+    Crossing c({}, {});
+    const Vec3 a0 = point(), b0 = point() * 3.0f, a1 = a0 + point() * 0.2f, b1 = b0 + point();
+    c.capsules.previous_a.view().set(0, a0), c.capsules.previous_b.view().set(0, b0);
+    c.capsules.next_a.view().set(0, a1), c.capsules.next_b.view().set(0, b1);
+    const Box cloth = box_of(c.sheet.position, c.sheet.count).grown(kRadius + kThickness);
+    float longest = 0.0f;
+    for (int i = 0; i <= 40; ++i) {
+      const float s = static_cast<float>(i) / 40.0f;
+      const Vec3 from = a0 + (b0 - a0) * s, to = a1 + (b1 - a1) * s;
+      for (int k = 0; k <= 20; ++k) {
+        if (cloth.distance2(from + (to - from) * (static_cast<float>(k) / 20.0f)) == 0.0f) {
+          longest = std::max(longest, length(to - from));
+        }
+      }
+    }
+    touching += longest > 0.0f;
+    EXPECT_GE(c.job().run() * 0.5f * (kRadius + kThickness), 0.9999f * longest) << round;
+  }
+  EXPECT_GT(touching, 100);
+}
+
+TEST(SubstepBound, AgainstClothThatIsCarriedOnlyWhatDoesNotGoAlong) {
+  const float turn = 0.5f;  // rad about z, and a way
+  const RigidMotion carry{{0, 0, 0}, {0.1f, 0, 0.2f}, {0, 0, std::sin(turn / 2), std::cos(turn / 2)}};
+  Crossing c({0.2f, 0.02f, 0}, carry.apply({0.2f, 0.02f, 0}));
+  for (auto* ends : {&c.capsules.previous_a, &c.capsules.previous_b}) {
+    auto* next = ends == &c.capsules.previous_a ? &c.capsules.next_a : &c.capsules.next_b;
+    next->view().set(0, carry.apply(ends->view()[0]));
+  }
+  c.set_velocity({7, 8, 9});  // which the cloth keeps for later
+  SubstepBound job = c.job();
+  job.carry = carry;
+  EXPECT_NEAR(job.run(), 0.0f, 1e-4f);
+  job.carry = RigidMotion{};
+  EXPECT_NEAR(job.run(), length(c.capsules.next_b.view()[0] - c.capsules.previous_b.view()[0]) / 0.025f, 1e-3f);
 }
 
 }  // namespace
