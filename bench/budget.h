@@ -36,8 +36,8 @@ struct Budget {
   std::vector<std::pair<std::string, demo::Spread>> systems;  ///< one by one
   std::optional<double> pn_smoothing;           ///< median us of the smoothing stages with PN alone, where we do more
   std::optional<double> allocations_per_frame;  ///< after warm-up; absent for runs that are all warm-up
-  uint64_t folds_given_up, substeps_given_up, ticks_given_up;   ///< cloths without, for the budget, in the last frame
-  uint64_t invisible;                           ///< cloths out of sight
+  uint64_t folds_given_up, substeps_given_up, ticks_given_up;  ///< cloths without, for the budget, in the last frame
+  uint64_t invisible;                                          ///< cloths out of sight
   demo::Quality quality;
   demo::SceneSurface surface;
   std::optional<Peer> peer;
