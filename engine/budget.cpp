@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr float kOfTheNewest = 0.2f;  // in the mean pace: about ten ticks count
+constexpr float kOfTheNewest = 0.2f;  // in means: about ten ticks count
 constexpr float kLeastShare = 0.01f;  // of the budget, for cloths that are seen
 
 /// With so many substeps, and all else that it has.
@@ -50,7 +50,7 @@ void give_up(World& world, ClothRecord& cloth, std::uint32_t steps) {
 void keep_budget(World& world, float budget_ms, float cost_ms) {
   if (budget_ms == 0.0f) {
     for (ClothRecord& cloth : world.clothes) give_up(world, cloth, 0);
-    world.pace = world.scarcity = 0.0f;
+    world.cost = world.work = world.scarcity = 0.0f;
     return;
   }
   world.detail.reserve(world.clothes.size());
@@ -65,13 +65,15 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
       unseen += work[kMostGivenUp];
     }
   }
-  if (const float work = work_taken(world); work > 0.0f) {
-    world.pace = world.pace == 0.0f ? cost_ms / work : world.pace + kOfTheNewest * (cost_ms / work - world.pace);
-  }
+  // Apart, for where cloths wait ticks differ.
+  const float newest = world.work == 0.0f ? 1.0f : kOfTheNewest;
+  world.cost += newest * (cost_ms - world.cost);
+  world.work += newest * (work_taken(world) - world.work);
+  const float pace = world.work > 0.0f ? world.cost / world.work : 0.0f;
   // What nobody sees has nothing to give, and takes its part.
-  const float left = std::max(budget_ms - world.pace * unseen, kLeastShare * budget_ms);
+  const float left = std::max(budget_ms - pace * unseen, kLeastShare * budget_ms);
   world.scarcity = run(DetailChoice{
-      .candidates = {world.detail.data(), count}, .budget = left, .pace = world.pace, .scarcity = world.scarcity});
+      .candidates = {world.detail.data(), count}, .budget = left, .pace = pace, .scarcity = world.scarcity});
   count = 0;
   for (ClothRecord& cloth : world.clothes) give_up(world, cloth, cloth.visible ? world.detail[count++].given_up : 0);
 }

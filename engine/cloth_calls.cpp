@@ -251,6 +251,7 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     record.pin_velocity = {};
     record.declared_jump.reset();
     record.settling = velocities == nullptr ? kSettling : 0.0f;
+    record.young = kYoung;
     record.sides_known = false;
     forget_motion(world, record);
     forget_layer_pairs(world, record);

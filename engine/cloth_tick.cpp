@@ -16,6 +16,7 @@
 #include "engine/turns.h"
 #include "systems/frequency_bound.h"
 #include "systems/largest_stretch.h"
+#include "systems/rigid_fit.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/contact_row.h"
 #endif
@@ -187,7 +188,10 @@ void fall_back(ClothTick& t) {
   roll_back(t);
   t.t0 = t.t1 = 1.0f;
   clear(t.velocity, t.garment.particle_count);
-  if (t.garment.pins.size() != 0) carry_with_pins(t);
+  if (const std::size_t pins = t.garment.pins.size(); pins != 0) {
+    t.carry = best_motion(t.pin_previous, t.pin_next, pins);
+    carry_with_pins(t);
+  }
   ++t.worker.stats.fallbacks;
   note(t.cloth.fallback);
 }
@@ -216,8 +220,10 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     cloth.contacts = {};
     return;
   }
-  cloth.carried = waits(t);
-  if (cloth.carried) return run_phase(t, Phase::kCarried);
+  if (waits(t)) {
+    stir(t);
+    return run_phase(t, Phase::kCarried);
+  }
   if (cloth.settling > 0.0f) begin_settling(t);
   fade_folds(world, cloth, dt);
   std::uint32_t n = substeps_for(t, dt);

@@ -370,8 +370,9 @@ typedef struct pleat_stats {
   uint64_t nonfinite_restored; /* particles put back because a substep made them non-finite */
   uint64_t allocations;        /* calls of the world's allocator */
   uint64_t bytes, peak_bytes;  /* held through it */
-  uint64_t fast_bodies;        /* ticks of a cloth in which a capsule moved more than half its radius in a substep, so
-                                  that it may have passed through: more substeps were not allowed */
+  uint64_t fast_bodies;        /* ticks of a cloth in which a capsule moved more than half its radius in a substep, or
+                                  where detail is given up its whole radius, so that it may have passed through: more
+                                  substeps were not allowed */
   uint64_t self_contacts;      /* of a cloth with itself: rows that pushed, last tick */
   uint64_t stiffness_lowered;  /* ticks of a cloth whose stiffness or bend_stiffness its substeps could not carry: its
                                   stiffest edges or hinges acted as stiff as is stable. The log says so once */
@@ -532,8 +533,9 @@ typedef struct pleat_api {
    *   one tick of two, four, eight                                      12, 24, 48
    * A step is given up where its loss times the cloth's importance is least. In ticks that it does without a cloth goes
    * rigidly with its pins, and its own motion is slower by as much; it takes them all where it has no pins, lies in a
-   * layer, is less than two seconds old, or where bodies would meanwhile go against it by an eighth, a quarter, half of
-   * their radius. Bodies do not pass through, and cloths whose `substeps` are set keep all but folds. The same numbers
+   * layer, is less than two seconds old, fades, or where bodies would meanwhile go against it by an eighth, a quarter,
+   * half of their radius, or by more than contact takes back in a tick. What is told of its last tick is of the last
+   * that it took. Bodies do not pass through, and cloths whose `substeps` are set keep all but folds. The same numbers
    * give the same bits. budget_ms = 0: all have full detail again. The level of the drawn triangles is the host's, see
    * cloth_suggest_level: it owns the indices. */
   pleat_result (*world_keep_budget)(pleat_world* world, float budget_ms, float cost_ms);
@@ -541,7 +543,8 @@ typedef struct pleat_api {
   pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);
   /* 0: nobody sees the cloth, as where its character is off the screen. Its surface is not drawn and cannot be read,
    * and at once it does with as little as a budget can leave it: see world_keep_budget. 1, as at first: its surface is
-   * there again at once, and it takes all ticks, its substeps over two seconds. May be called every frame. */
+   * there again at once, and it takes all ticks, its substeps over two seconds, unless a budget says otherwise. May be
+   * called every frame. */
   pleat_result (*cloth_set_visible)(pleat_world* world, pleat_cloth cloth, uint32_t visible);
   /* For rollback, replays and saved games: all that the bits of the ticks to come depend on, between two ticks. In it:
    * particles, pins, drawn surfaces, poses of bodies and whether they are enabled, what is due at the next tick, and

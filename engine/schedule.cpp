@@ -11,6 +11,7 @@
 #include "engine/run.h"
 #include "engine/schedule_table.h"
 #include "engine/sleep.h"
+#include "engine/turns.h"
 #include "systems/frequency_bound.h"
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -217,7 +218,6 @@ void replan(World& world, const BodyCensus& before) {
 void tick(World& world, float dt) {
   const Busy busy(world);
   ++world.ticks;
-  world.turn = (world.turn + 1) % kTicksParted.back();
   world.stats.particle_contacts = world.stats.face_contacts = world.stats.self_contacts = world.stats.sleeping = 0;
   for (ClothRecord& cloth : world.clothes) {
     ClothTick t(world, world.workers[0], cloth);
@@ -225,6 +225,7 @@ void tick(World& world, float dt) {
     run_phase(t, Phase::kFrameBegin);
     recentre(world, cloth);
   }
+  begin_turns(world);
   update_bodies(world);
   begin_layers(world);
   const std::uint32_t top = top_layer(world);

@@ -52,6 +52,10 @@ void wake_all(World& world) {
 
 bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }
 
+void stir(ClothTick& t) {
+  if (t.settings.sleep_speed > 0.0f && is_disturbed(t)) wake(t.cloth);
+}
+
 void watch_rest(ClothTick& t) {
   const std::size_t n = t.garment.particle_count;
   const bool calm =

@@ -209,8 +209,9 @@ template <class W, class Io>
 void visit(W& world, Io& io, std::uint64_t bytes) {
   visit_shape(world, io, bytes);
   number(io, "time", world.time, kTime);
-  number(io, "pace", world.pace, kPositive);
-  number(io, "scarcity", world.scarcity, kPositive);
+  number(io, "pace", world.cost, kPositive);
+  number(io, "pace", world.work, kPositive);
+  number(io, "scarcity", world.scarcity, {0.0, 1e30 * static_cast<double>(kLoss.back())});
   number(io, "turn", world.turn, {0.0, kTicksParted.back() - 1.0});
   visit_bodies(world, io);
   for (auto& cloth : world.clothes) visit_cloth(world, io, cloth);

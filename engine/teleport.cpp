@@ -42,6 +42,7 @@ void carry(ClothTick& t, const RigidMotion& jump) {
   carry_bodies(world, jump.moved(t.cloth.origin));
   t.cloth.origin += far;
   t.cloth.bending_left = 0.0f;
+  t.cloth.travelled = kDue;
   wake(t.cloth);
   t.cloth.self_pair_count = kNone;
   forget_layer_pairs(world, t.cloth);

@@ -1,6 +1,7 @@
 #include "engine/turns.h"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/budget.h"
 #include "engine/run.h"
@@ -10,14 +11,40 @@
 #include "systems/surface_carry.h"
 #endif
 #ifdef PLEAT_WITH_COLLISION
+#include "systems/contact_row.h"
 #include "systems/substep_bound.h"
 #endif
 
 namespace pleat {
-
 namespace {
 
 constexpr float kReachATick = 0.0625f;  // of bodies between turns, for each tick of as many as the cloth takes one of
+
+#ifdef PLEAT_WITH_COLLISION
+/// How far a cloth that is carried goes into planes, in such shares of what contact looks for them.
+float travel_into_planes(const ClothTick& t, float reach) {
+  float most = 0.0f;
+  for (const PlaneCollider& plane : t.world.planes) {
+    if (!plane.enabled) continue;
+    const PlanePose begin(plane, 0.0f, t.cloth.origin), end(plane, 1.0f, t.cloth.origin);
+    float before = 0.0f, after = 0.0f;  // depth, m
+    for (std::uint32_t i = 0; i < t.garment.particle_count; ++i) {
+      const Vec3 x = t.position[i];
+      before = std::max(before, begin.height - dot(begin.normal, x));
+      after = std::max(after, end.height - dot(end.normal, t.carry.apply(x)));
+    }
+    const float room = std::min(reach * (kLeastMargin + t.settings.thickness), kRecoverySpeed * t.frame_dt);
+    most = std::max(most, (after - before) / room);
+  }
+  return most;
+}
+#endif
+
+/// Old enough, and nothing fades that would be seen to.
+bool may_wait(const ClothRecord& cloth) {
+  const bool fading = cloth.visible && cloth.fold_share != (gives_up_folds(cloth) ? 0.0f : 1.0f);
+  return takes_one_tick_of(cloth) > 1 && cloth.young == 0.0f && !fading;
+}
 
 }  // namespace
 
@@ -42,15 +69,27 @@ float travel_of_bodies([[maybe_unused]] const ClothTick& t, [[maybe_unused]] flo
 #endif
 }
 
+void begin_turns(World& world) {
+  world.turn = (world.turn + 1) % kTicksParted.back();
+  std::array<std::uint32_t, kMostGivenUp + 1> waiting{};  // by steps given up
+  for (ClothRecord& cloth : world.clothes) {
+    const std::uint32_t ticks = takes_one_tick_of(cloth);
+    cloth.carried = ticks > 1 && (world.turn + waiting[steps_given_up(cloth)]++) % ticks != 0;
+  }
+}
+
 bool waits(ClothTick& t) {
   ClothRecord& cloth = t.cloth;
-  const std::uint32_t ticks = takes_one_tick_of(cloth);
-  const auto place = static_cast<std::uint32_t>(&cloth - t.world.clothes.data());
-  if (cloth.young == 0.0f && (t.world.turn + place) % ticks != 0) {
+  if (cloth.carried && may_wait(cloth)) {
     t.carry = best_motion(t.pin_previous, t.pin_next, t.garment.pins.size());
-    cloth.travelled += travel_of_bodies(t, kReachATick * static_cast<float>(ticks), t.carry);
+    const float reach = kReachATick * static_cast<float>(takes_one_tick_of(cloth));
+    cloth.travelled += travel_of_bodies(t, reach, t.carry);
+#ifdef PLEAT_WITH_COLLISION
+    cloth.travelled += travel_into_planes(t, reach);
+#endif
     if (cloth.travelled <= 1.0f) return true;
   }
+  cloth.carried = false;
   cloth.travelled = 0.0f;
   cloth.young = std::max(cloth.young - t.frame_dt, 0.0f);
   return false;
@@ -58,7 +97,6 @@ bool waits(ClothTick& t) {
 
 void carry_with_pins(ClothTick& t) {
   const std::size_t pins = t.garment.pins.size();
-  t.carry = best_motion(t.pin_previous, t.pin_next, pins);
   RigidCarry cloth{
       .motion = t.carry, .particle_count = t.garment.particle_count, .position = t.position, .velocity = t.velocity};
   if (t.world.held.size() != 0) cloth.held = t.world.held.view().from(t.cloth.particle_begin);
@@ -68,8 +106,8 @@ void carry_with_pins(ClothTick& t) {
   t.cloth.self_pair_count = kNone;
 }
 
-void carry_surface([[maybe_unused]] ClothTick& t) {
 #ifdef PLEAT_WITH_SMOOTHING
+void carry_surface(ClothTick& t) {
   const TessellationPattern& pattern = *t.cloth.pattern();
   run(SurfaceCarry{.motion = t.carry,
                    .vertex_count = pattern.vertex_count,
@@ -77,7 +115,7 @@ void carry_surface([[maybe_unused]] ClothTick& t) {
                    .position = t.drawn_position,
                    .normal = t.drawn_normal,
                    .tangent = t.settings.tangents != 0 ? t.drawn_tangent : Vec3View{}});
-#endif
 }
+#endif
 
 }  // namespace pleat

@@ -58,6 +58,8 @@ inline constexpr float kSettling = 0.25f;
 
 /// In which a cloth finds its shape before it may wait, s.
 inline constexpr float kYoung = 2.0f;
+/// Of its `travelled`: it takes the next tick.
+inline constexpr float kDue = 2.0f;
 
 struct ClothRecord {
   GarmentRecord* source = nullptr;
@@ -71,22 +73,22 @@ struct ClothRecord {
   Plan plan = 0;
   FrequencyRates rates;  // of these masses
   Notice lowered = Notice::kNothing, fallback = Notice::kNothing;
-  std::uint32_t lowered_at = 0;              // substeps with which the stiffness was lowered
-  bool said_jump = false;                    // that its pins jumped
-  Vec3 pin_velocity;                         // m/s, mean of the last tick
-  bool visible = true;                       // somebody sees it
-  float importance = 1.0f;                   // the host's, against other cloths; budget.h
-  std::uint32_t given_up = 0;                // steps of detail
-  float fold_share = 1.0f;                   // of their height, with which folds are drawn
-  bool sides_known = false;                  // to which folds went when they were last drawn
-  float substep_share = 1.0f;                // that is taken of those wanted
-  bool carried = false;                      // in the last tick, which it did without: turns.h
-  float travelled = 0.0f;                    // by bodies against it since it took one, of what they may
-  float young = kYoung;                      // s, for how much longer it takes every tick
-  std::uint32_t substeps_wanted = 0;         // in the last tick, with nothing given up
-  float bending_left = 0.0f;                 // s, for how much longer its force of bending is held
-  float calm = 0.0f;                         // s, since when nothing has moved; sleep.h
-  float settling = kSettling;                // s, for how much longer a start that does not fit is held back
+  std::uint32_t lowered_at = 0;       // substeps with which the stiffness was lowered
+  bool said_jump = false;             // that its pins jumped
+  Vec3 pin_velocity;                  // m/s, mean of the last tick
+  bool visible = true;                // somebody sees it
+  float importance = 1.0f;            // the host's, against other cloths; budget.h
+  std::uint32_t given_up = 0;         // steps of detail
+  float fold_share = 1.0f;            // of their height, with which folds are drawn
+  bool sides_known = false;           // to which folds went when they were last drawn
+  float substep_share = 1.0f;         // that is taken of those wanted
+  bool carried = false;               // in the last tick, which it did without; within a tick, whether it may: turns.h
+  float travelled = 0.0f;             // by bodies against it since it took one, of what they may; kDue: as far as that
+  float young = kYoung;               // s, for how much longer it takes every tick
+  std::uint32_t substeps_wanted = 0;  // in the last tick, with nothing given up
+  float bending_left = 0.0f;          // s, for how much longer its force of bending is held
+  float calm = 0.0f;                  // s, since when nothing has moved; sleep.h
+  float settling = kSettling;         // s, for how much longer a start that does not fit is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
   std::uint64_t last_tick = 0;               // `ticks` of the world when it last ran
 
@@ -164,7 +166,7 @@ struct World {
   std::unique_ptr<ThreadPool, MemoryDelete> pool;  // where there are more and the host has no parallel_for
 
   Column<DetailCandidate> detail;  // scratch of the budget, empty without one
-  float pace = 0.0f;               // ms a unit of work, by what the host told of the last ticks; 0: not yet
+  float cost = 0.0f, work = 0.0f;  // of a tick on average, by what the host told: ms, and systems/detail_choice.h
   float scarcity = 0.0f;           // of time, in the unit of importance: systems/detail_choice.h
   std::uint32_t turn = 0;          // below 8: turns.h
 

@@ -9,9 +9,9 @@ namespace {
 constexpr float kWorkOfFold = 0.25f, kWorkOfDrawn = 0.2f, kWorkOfCarrying = 0.02f;  // in particles times substeps
 constexpr float kAimFromAbove = 0.95f, kCheap = 0.8f, kAimFromBelow = 0.9f;         // of the budget
 constexpr float kClearlyLess = 0.8f;  // of the scarcity at which a step was given up
+constexpr float kLeast = 1e-6f;       // of the largest importance, that any counts
 constexpr float kEarlier = 0.2f;      // how much less important the first of equals counts than the last
-constexpr float kFine = 1e-4f;        // of scarcity, to which it is found, in
-constexpr int kHalvings = 60;         // of a range, at most
+constexpr float kFine = 1e-4f;        // of scarcity, to which it is found
 
 /// The most steps whose loss is no more than `most`.
 std::uint32_t steps_within(float most) {
@@ -46,39 +46,46 @@ bool DetailChoice::validate() const {
          });
 }
 
-std::uint32_t DetailChoice::step_at(std::size_t candidate, float scarce) const {
-  if (scarce == 0.0f) return 0;
+/// 1 where nothing has any.
+float DetailChoice::largest_importance() const {
+  float largest = 0.0f;
+  for (const DetailCandidate& c : candidates) largest = std::max(largest, c.importance);
+  return largest > 0.0f ? largest : 1.0f;
+}
+
+std::uint32_t DetailChoice::step_at(std::size_t candidate, float scarce, float largest) const {
   const DetailCandidate& c = candidates[candidate];
   const float place = static_cast<float>(candidate) / static_cast<float>(candidates.size());
-  const float counts = c.importance * (1.0f - kEarlier * (1.0f - place));
-  if (!(counts > 0.0f)) return kMostGivenUp;
+  const float counts = std::max(c.importance, kLeast * largest) * (1.0f - kEarlier * (1.0f - place));
   return std::clamp(c.given_up, steps_within(scarce / counts), steps_within(scarce / (kClearlyLess * counts)));
 }
 
-float DetailChoice::expected_at(float scarce) const {
+float DetailChoice::expected_at(float scarce, float largest) const {
   float work = 0.0f;
-  for (std::size_t i = 0; i < candidates.size(); ++i) work += candidates[i].work[step_at(i, scarce)];
+  for (std::size_t i = 0; i < candidates.size(); ++i) work += candidates[i].work[step_at(i, scarce, largest)];
   return pace * work;
 }
 
-float DetailChoice::least_that_keeps(float share_of_budget, float low, float high) const {
-  for (int k = 0; k < kHalvings && high - low > kFine * high; ++k) {
+/// Not at `low`, but at `high`.
+float DetailChoice::least_that_keeps(float share_of_budget, float low, float high, float largest) const {
+  while (high - low > kFine * high) {
     const float middle = 0.5f * (low + high);
-    (expected_at(middle) <= share_of_budget * budget ? high : low) = middle;
+    (expected_at(middle, largest) <= share_of_budget * budget ? high : low) = middle;
   }
   return high;
 }
 
 float DetailChoice::run() const {
-  float scarce = scarcity;
-  if (const float expected = expected_at(scarce); expected > budget) {
-    float most = scarce;  // at which all is given up
-    for (const DetailCandidate& c : candidates) most = std::max(most, kLoss.back() * c.importance);
-    scarce = least_that_keeps(kAimFromAbove, scarce, most);
-  } else if (expected < kCheap * budget && scarce > 0.0f) {
-    scarce = expected_at(0.0f) <= kAimFromBelow * budget ? 0.0f : least_that_keeps(kAimFromBelow, 0.0f, scarce);
+  const float largest = largest_importance();
+  const float most = kLoss.back() * largest;  // at which all is given up
+  float scarce = std::min(scarcity, most);
+  if (const float expected = expected_at(scarce, largest); expected > budget) {
+    scarce = least_that_keeps(kAimFromAbove, scarce, most, largest);
+  } else if (expected < kCheap * budget) {
+    const bool plenty = expected_at(0.0f, largest) <= kAimFromBelow * budget;
+    scarce = plenty ? 0.0f : least_that_keeps(kAimFromBelow, 0.0f, scarce, largest);
   }
-  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].given_up = step_at(i, scarce);
+  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].given_up = step_at(i, scarce, largest);
   return scarce;
 }
 

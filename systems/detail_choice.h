@@ -23,7 +23,8 @@ struct ClothWork {
 };
 
 /// A cloth gives up a step of detail where time is so scarce that scarcity >= loss of the step * importance, and takes
-/// it back below .8 of that. Among equals the first give up first. Where the cloths with what they have now are
+/// it back below .8 of that. Among equals the first give up first; importance counts as a millionth of the largest at
+/// least. Where the cloths with what they have now are
 /// expected to cost more than the budget, scarcity rises until that is .95 of it; where less than .8 of it, it falls
 /// as far as that stays under .9. In between only importance changes anything, so that measured times, which waver, do
 /// not make detail flicker.
@@ -39,10 +40,11 @@ struct DetailChoice {
   float run() const;
 
  private:
-  std::uint32_t step_at(std::size_t candidate, float scarce) const;
+  float largest_importance() const;
+  std::uint32_t step_at(std::size_t candidate, float scarce, float largest) const;
   /// What a tick should cost then, ms.
-  float expected_at(float scarce) const;
-  float least_that_keeps(float share_of_budget, float low, float high) const;
+  float expected_at(float scarce, float largest) const;
+  float least_that_keeps(float share_of_budget, float low, float high, float largest) const;
 };
 
 }  // namespace pleat

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "systems/contact_row.h"
 
@@ -77,14 +78,15 @@ float SubstepBound::run() const {
 
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
+  const float most_room = carry ? kRecoverySpeed * dt : std::numeric_limits<float>::infinity();
   float most = 0.0f;
   bodies->for_each_capsule(cloth, [&](std::uint32_t i) {
     Box swept;
     for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
     const float radius = capsules->radius[i], taper = capsules->taper[i];
     if (!swept.grown(radius + std::max(taper, 0.0f)).overlaps(cloth)) return;
-    const float room =
-        std::max(reach * (radius + std::min(taper, 0.0f) + capsules->thickness[i] + thickness), kLeastRoom);
+    const float room = std::clamp(reach * (radius + std::min(taper, 0.0f) + capsules->thickness[i] + thickness),
+                                  kLeastRoom, std::max(most_room, kLeastRoom));
     const Vec3 way_a = a1[i] - carried(a0[i]), way_b = b1[i] - carried(b0[i]);
     // What is near at some time is no farther than half its way from being near as the tick begins or ends.
     const float half_way = 0.5f * std::max(length(a1[i] - a0[i]), length(b1[i] - b0[i]));
@@ -100,7 +102,8 @@ float SubstepBound::run() const {
   for (std::uint32_t m = 0; m < mesh_count; ++m) {
     if (!meshes[m]->enabled) continue;
     const float way = motion_near(cloth, *meshes[m], carried);
-    if (way > 0.0f) most = std::max(most, (way + own) / (kLeastMargin + meshes[m]->thickness + thickness));
+    const float room = (carry ? reach : 1.0f) * (kLeastMargin + meshes[m]->thickness + thickness);
+    if (way > 0.0f) most = std::max(most, (way + own) / std::min(room, most_room));
   }
   return std::min(most, kMost);
 }

@@ -170,7 +170,9 @@ TEST(State, SleepStartsJumpsAndDetailGoOnWhereTheyWere) {
   Stage stage, other;
   ClothRecord& cloth = stage.inside().clothes[2];
   cloth.calm = 0.3f, cloth.settling = 0.1f, cloth.pin_velocity = {1, 2, 3}, cloth.importance = 4.0f;
-  cloth.given_up = 2, cloth.fold_share = 0.25f, cloth.substep_share = 0.75f, stage.inside().pace = 0.5f;
+  cloth.given_up = 2, cloth.fold_share = 0.25f, cloth.substep_share = 0.75f, stage.inside().cost = 0.5f;
+  stage.inside().work = 3.0f, stage.inside().scarcity = 4e31f, stage.inside().turn = 5;
+  cloth.young = 0.5f, cloth.travelled = 0.25f, cloth.carried = true;
   ASSERT_EQ(other.load(stage.saved()), pleat_result{PLEAT_OK});
   const ClothRecord& there = other.inside().clothes[2];
   EXPECT_EQ(there.calm, 0.3f);
@@ -180,7 +182,13 @@ TEST(State, SleepStartsJumpsAndDetailGoOnWhereTheyWere) {
   EXPECT_EQ(there.given_up, 2u);
   EXPECT_EQ(there.fold_share, 0.25f);
   EXPECT_EQ(there.substep_share, 0.75f);
-  EXPECT_EQ(other.inside().pace, 0.5f);
+  EXPECT_EQ(there.young, 0.5f);
+  EXPECT_EQ(there.travelled, 0.25f);
+  EXPECT_TRUE(there.carried);
+  EXPECT_EQ(other.inside().cost, 0.5f);
+  EXPECT_EQ(other.inside().work, 3.0f);
+  EXPECT_EQ(other.inside().scarcity, 4e31f);
+  EXPECT_EQ(other.inside().turn, 5u);
   EXPECT_TRUE(other.explain("fold_fade").find("run for") != std::string::npos) << "the plan follows";
 }
 

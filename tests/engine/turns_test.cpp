@@ -22,11 +22,13 @@ struct Parade {
   int frame = 0;
   float speed = 0.0f, spin = 0.0f;  // m/s, rad/s
 
-  explicit Parade(int count, const pleat_cloth_settings& settings = Scene::default_settings()) {
+  explicit Parade(int count, const pleat_cloth_settings& settings = Scene::default_settings(),
+                  const pleat_world_def& def = Scene::default_def())
+      : scene(def) {
     const pleat_garment sheet = scene.sheet(7);
     for (int k = 0; k < count; ++k) cloths.push_back(scene.cloth(sheet, settings));
     const std::vector<float> x = scene.particles(cloths[0]);
-    for (const int pin : {0, 6}) rest.insert(rest.end(), &x[3 * pin], &x[3 * pin + 3]);
+    for (const std::size_t pin : {0, 6}) rest.insert(rest.end(), &x[3 * pin], &x[3 * pin + 3]);
     tick(62);  // old enough to wait
   }
   World& world() { return scene.inside(); }
@@ -56,6 +58,7 @@ struct Parade {
   }
   void give_up_all() {
     for (int i = 0; i < 40; ++i) must(call::world_keep_budget(scene, 1.0f, 1000.0f));
+    tick(9);  // folds fade first
   }
   int waiting() {
     return static_cast<int>(std::ranges::count_if(world().clothes, [](const ClothRecord& c) { return c.carried; }));
@@ -146,6 +149,81 @@ TEST(Turns, LayersClothWithoutPinsAndWithItsOwnSubstepsTakeEveryTick) {
 #endif
 }
 
+TEST(Turns, ClothsBetweenThatTakeAllTicksDoNotMatter) {
+  Parade p(1);
+  pleat_cloth_settings own = Scene::default_settings();
+  own.substeps = 2;
+  const pleat_garment sheet = p.scene.sheet(7);
+  for (int k = 0; k < 15; ++k) p.scene.cloth(sheet, own), p.cloths.push_back(p.scene.cloth(sheet));
+  p.scene.step(62, kFrame);
+  p.give_up_all();
+  for (int tick = 0; tick < 2 * kLongest; ++tick) {
+    p.tick();
+    EXPECT_EQ(p.waiting(), 14);
+  }
+}
+
+TEST(Turns, AJumpTakesWhatIsDrawnAlong) {
+  for (const float way : {3.0f, 20.0f}) {
+    for (const bool declared : {true, false}) {
+      pleat_cloth_settings s = Scene::default_settings();
+      s.teleport_speed = 10.0f;
+      Parade p(1, s);
+      p.give_up_all();
+      do p.tick();
+      while (!p.record().carried);
+      const std::vector<float> before = p.scene.vertices(p.cloths[0]);
+      std::vector<float> pins = p.pins();
+      for (std::size_t k = 0; k < 6; k += 3) pins[k] += way;
+      const float from[] = {0, 0, 0}, to[] = {way, 0, 0};
+      if (declared) must(call::cloth_teleport(p.scene, p.cloths[0], from, to, nullptr));
+      must(call::cloth_move_pins(p.scene, p.cloths[0], pins.data(), 0, 2));
+      p.scene.step(1, kFrame);
+      ASSERT_EQ(p.scene.stats().teleports, 1u);
+      const std::vector<float> after = p.scene.vertices(p.cloths[0]);
+      for (std::size_t i = 0; i < before.size(); i += 8) EXPECT_NEAR(after[i], before[i] + way, 0.05f);
+    }
+  }
+}
+
+TEST(Turns, WhatMovesInATickThatItWaitsWakesIt) {
+  pleat_cloth_settings s = Scene::default_settings();
+  s.sleep_speed = 0.01f, s.air_damping = 2.0f;
+  Parade p(1, s);
+  p.tick(300);
+  ASSERT_EQ(p.scene.stats().sleeping, 1u);
+  must(call::cloth_set_visible(p.scene, p.cloths[0], 0));
+  p.tick();
+  // Pins turn about the way from one to the other, by a quarter: the cloth hangs sideways, and falls.
+  while ((p.world().turn + 1) % 8 != 1) p.tick();
+  std::vector<float> pins = p.pins();
+  pins[1] += 0.5f, pins[4] -= 0.5f, pins[0] += 0.5f, pins[3] -= 0.5f;  // one above the other
+  must(call::cloth_move_pins(p.scene, p.cloths[0], pins.data(), 0, 2));
+  p.scene.step(1, kFrame);
+  EXPECT_EQ(p.scene.stats().sleeping, 0u);
+  ASSERT_TRUE(p.record().carried);
+  const std::vector<float> turned = p.scene.particles(p.cloths[0]);
+  p.scene.step(100, kFrame);
+  const std::vector<float> later = p.scene.particles(p.cloths[0]);
+  float most = 0.0f;
+  for (std::size_t i = 0; i < turned.size() / 2; ++i) most = std::max(most, std::abs(later[i] - turned[i]));
+  EXPECT_GT(most, 0.2f);
+}
+
+TEST(Turns, ParticlesThatTheHostWritesTakeEveryTick) {
+  Parade p(1);
+  p.give_up_all();
+  do p.tick();
+  while (!p.record().carried);
+  const std::vector<float> x = p.scene.particles(p.cloths[0]);
+  const auto n = static_cast<std::uint32_t>(x.size() / 6);
+  must(call::cloth_write_particles(p.scene, p.cloths[0], x.data(), nullptr, n));
+  for (int tick = 0; tick < kLongest; ++tick) {
+    p.tick();
+    EXPECT_FALSE(p.record().carried);
+  }
+}
+
 TEST(Turns, ClothThatNobodySeesWaitsAndIsThereAtOnce) {
   Parade p(1);
   must(call::cloth_set_visible(p.scene, p.cloths[0], 0));
@@ -184,17 +262,17 @@ TEST(Turns, AnyNumberOfWorkersGivesTheSameBits) {
   const auto play = [](std::uint32_t workers) {
     pleat_world_def def = Scene::default_def();
     def.workers = workers;
-    Scene scene(def);
-    const pleat_garment sheet = scene.sheet(7);
-    std::vector<pleat_cloth> cloths;
-    for (int k = 0; k < 9; ++k) cloths.push_back(scene.cloth(sheet));
-    scene.step(3, kFrame);
-    for (int i = 0; i < 40; ++i) must(call::world_keep_budget(scene, 1.0f, 1000.0f));
-    scene.step(20, kFrame);
+    Parade p(9, Scene::default_settings(), def);
+    p.give_up_all();
+    p.go(1.0f, 1.0f);
     std::vector<float> all;
-    for (const pleat_cloth cloth : cloths) {
-      const std::vector<float> drawn = scene.vertices(cloth);
-      all.insert(all.end(), drawn.begin(), drawn.end());
+    for (int tick = 0; tick < 20; ++tick) {
+      p.tick();
+      EXPECT_GT(p.waiting(), 6);
+      for (const pleat_cloth cloth : p.cloths) {
+        const std::vector<float> drawn = p.scene.vertices(cloth);
+        all.insert(all.end(), drawn.begin(), drawn.end());
+      }
     }
     return all;
   };
@@ -224,26 +302,87 @@ float depth(Parade& p) {
 
 TEST(Turns, ABodyThatComesNearIsNotMissed) {
   // A bar swings through where the cloth hangs, slowly and then too fast for a tick of eight.
-  for (const float speed : {0.2f, 1.0f, 4.0f}) {
+  struct Swing {
+    float speed, radius, dt;
+  };
+  for (const auto& [speed, radius, dt] :
+       {Swing{0.2f, 0.08f, kFrame}, Swing{1, 0.08f, kFrame}, Swing{4, 0.08f, kFrame}, Swing{0.6f, 0.15f, 1.0f / 120}}) {
+    SCOPED_TRACE(speed);
     Parade p(1);
     p.tick(60);
     p.give_up_all();
     p.tick(20);
-    const pleat_collider bar = p.scene.sphere(0, -0.5f, 5, 0.08f);
+    const pleat_collider bar = p.scene.sphere(0, -0.5f, 5, radius);
     float deepest = 0.0f;
     const float reach = 0.8f;
-    for (float z = -reach; z < reach; z += speed * kFrame) {
+    for (float z = -reach; z < reach; z += speed * dt) {
       const float a[] = {-0.6f, -0.5f, z}, b[] = {0.6f, -0.5f, z};
       must(call::collider_move_capsule(p.scene, bar, a, b));
-      p.tick();
+      p.scene.step(1, dt);
       if (z > -reach) deepest = std::max(deepest, depth(p));
     }
-    EXPECT_LT(deepest, 0.045f) << "half of the radius and the thickness: " << speed;
+    EXPECT_LT(deepest, 0.045f) << "half of radius and thickness, or what is taken back in a tick";
     // The cloth lies on the bar, and not behind it.
     must(call::world_keep_budget(p.scene, 0.0f, 0.0f));
     p.tick(30);
-    EXPECT_LT(depth(p), 1e-3f) << speed;
+    EXPECT_LT(depth(p), 1e-3f);
   }
+}
+
+TEST(Turns, ClothIsNotCarriedIntoTheGround) {
+  Parade p(1);
+  p.give_up_all();
+  p.tick(20);
+  pleat_collider_def def;
+  must(call::collider_def_init(&def, sizeof def));
+  def.shape = PLEAT_COLLIDER_PLANE;
+  def.position[1] = -1.5f;
+  pleat_collider ground{};
+  must(call::collider_create(p.scene, &def, &ground));
+  float deepest = 0.0f;
+  for (int tick = 0; tick < 20; ++tick) {  // at 2 m/s
+    for (const std::size_t k : {1, 4}) p.rest[k] -= 2.0f * kFrame;
+    must(call::cloth_move_pins(p.scene, p.cloths[0], p.pins().data(), 0, 2));
+    p.scene.step(1, kFrame);
+    deepest = std::max(deepest, depth(p));
+  }
+  EXPECT_LT(deepest, 0.01f) << "half of what contact looks for, and rounding";
+}
+
+/// A flat box moves up into a sheet that lies in the air between two pins.
+TEST(Turns, AMeshThatComesNearIsNotMissed) {
+  Parade p(1);
+  p.tick(60);
+  p.give_up_all();
+  p.tick(20);
+  std::vector<float> x;
+  for (int k = 0; k < 8; ++k) {
+    for (const float c : {k & 1 ? 0.6f : -0.6f, k & 2 ? -0.4f : -0.6f, k & 4 ? 0.05f : -0.05f}) x.push_back(c);
+  }
+  const std::uint32_t faces[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  const auto at = [&](float z) {
+    std::vector<float> moved = x;
+    for (std::size_t i = 2; i < moved.size(); i += 3) moved[i] += z;
+    return moved;
+  };
+  pleat_collider_def def;
+  must(call::collider_def_init(&def, sizeof def));
+  def.shape = PLEAT_COLLIDER_MESH;
+  const std::vector<float> start = at(-1.8f);
+  def.positions = start.data(), def.vertex_count = 8, def.triangles = faces, def.triangle_count = 12;
+  pleat_collider bar{};
+  must(call::collider_create(p.scene, &def, &bar));
+  float deepest = 0.0f;
+  for (float z = -1.8f; z < 0.6f; z += 0.6f * kFrame) {
+    must(call::collider_move_mesh(p.scene, bar, at(z).data(), 0, 8));
+    p.tick();
+    deepest = std::max(deepest, depth(p));
+  }
+  EXPECT_LT(deepest, 0.02f);
+  must(call::world_keep_budget(p.scene, 0.0f, 0.0f));
+  p.tick(30);
+  EXPECT_LT(depth(p), 2e-3f);
 }
 #endif
 

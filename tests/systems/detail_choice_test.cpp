@@ -97,6 +97,12 @@ TEST(DetailChoice, WhatCannotBeKeptIsKeptAsNearlyAsPossible) {
   EXPECT_EQ(crowd.given_up(), Steps(3, kMostGivenUp));
 }
 
+TEST(DetailChoice, WhereNothingMattersAllMatterAlike) {
+  Crowd crowd({0, 0, 0, 0});
+  crowd.keep(390.0f);
+  EXPECT_EQ(crowd.given_up(), (Steps{1, 1, 1, 0}));
+}
+
 TEST(DetailChoice, DetailComesBack) {
   Crowd crowd({3, 1, 0});
   crowd.keep(60.0f);
