@@ -28,7 +28,7 @@ struct Parade {
     const pleat_garment sheet = scene.sheet(7);
     for (int k = 0; k < count; ++k) cloths.push_back(scene.cloth(sheet, settings));
     const std::vector<float> x = scene.particles(cloths[0]);
-    for (const std::size_t pin : {0, 6}) rest.insert(rest.end(), &x[3 * pin], &x[3 * pin + 3]);
+    for (const std::size_t pin : {0u, 6u}) rest.insert(rest.end(), &x[3 * pin], &x[3 * pin + 3]);
     tick(62);  // old enough to wait
   }
   World& world() { return scene.inside(); }
@@ -341,7 +341,7 @@ TEST(Turns, ClothIsNotCarriedIntoTheGround) {
   must(call::collider_create(p.scene, &def, &ground));
   float deepest = 0.0f;
   for (int tick = 0; tick < 20; ++tick) {  // at 2 m/s
-    for (const std::size_t k : {1, 4}) p.rest[k] -= 2.0f * kFrame;
+    for (const std::size_t k : {1u, 4u}) p.rest[k] -= 2.0f * kFrame;
     must(call::cloth_move_pins(p.scene, p.cloths[0], p.pins().data(), 0, 2));
     p.scene.step(1, kFrame);
     deepest = std::max(deepest, depth(p));
