@@ -24,8 +24,6 @@ struct DetailCandidate {
   float importance = 1.0f;     // >= 0; any unit, the same for all
   OfSteps work = {};           // what a tick takes on average with so many steps given up; any unit
   std::uint32_t given_up = 0;  // steps
-
-  float work_now() const { return work[given_up]; }
 };
 
 /// How fast detail goes and comes, 1/s: shares of the folds' height, of the substeps.

@@ -42,7 +42,7 @@ float work_taken(const World& world) {
 void give_up(World& world, ClothRecord& cloth, std::uint32_t steps) {
   const std::uint32_t ticks = takes_one_tick_of(cloth);
   cloth.given_up = steps;
-  if (takes_one_tick_of(cloth) != ticks) replan(std::as_const(world), cloth);
+  if (takes_one_tick_of(cloth) != ticks) replan(world, cloth);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void fade_substeps(ClothRecord& cloth, float dt) {
 }
 
 void fade_folds(World& world, ClothRecord& cloth, float dt) {
-  const float folds = gives_up_folds(cloth) ? 0.0f : 1.0f;
+  const float folds = folds_wanted(cloth);
   if (cloth.fold_share == folds) return;
   cloth.fold_share = faded(cloth.fold_share, folds, dt * kFoldsFade);
   replan(world, cloth);

@@ -21,6 +21,8 @@ inline bool has_folds_to_give(const ClothRecord& cloth) {
   return cloth.settings.surface == PLEAT_SURFACE_PLEAT && cloth.pattern() != nullptr;
 }
 inline bool gives_up_folds(const ClothRecord& cloth) { return cloth.given_up > 0 && has_folds_to_give(cloth); }
+/// Where its fold_share goes.
+inline float folds_wanted(const ClothRecord& cloth) { return gives_up_folds(cloth) ? 0.0f : 1.0f; }
 
 inline bool has_substeps_to_give(const ClothRecord& cloth) { return cloth.settings.substeps == 0; }
 inline bool gives_up_substeps(const ClothRecord& cloth) {

@@ -23,6 +23,7 @@ constexpr float kReachATick = 0.0625f;  // of bodies between turns, for each tic
 #ifdef PLEAT_WITH_COLLISION
 /// How far a cloth that is carried goes into planes, in such shares of what contact looks for them.
 float travel_into_planes(const ClothTick& t, float reach) {
+  const float room = std::min(reach * (kLeastMargin + t.settings.thickness), kRecoverySpeed * t.frame_dt);
   float most = 0.0f;
   for (const PlaneCollider& plane : t.world.planes) {
     if (!plane.enabled) continue;
@@ -33,7 +34,6 @@ float travel_into_planes(const ClothTick& t, float reach) {
       before = std::max(before, begin.height - dot(begin.normal, x));
       after = std::max(after, end.height - dot(end.normal, t.carry.apply(x)));
     }
-    const float room = std::min(reach * (kLeastMargin + t.settings.thickness), kRecoverySpeed * t.frame_dt);
     most = std::max(most, (after - before) / room);
   }
   return most;
@@ -42,8 +42,7 @@ float travel_into_planes(const ClothTick& t, float reach) {
 
 /// Old enough, and nothing fades that would be seen to.
 bool may_wait(const ClothRecord& cloth) {
-  const bool fading = cloth.visible && cloth.fold_share != (gives_up_folds(cloth) ? 0.0f : 1.0f);
-  return takes_one_tick_of(cloth) > 1 && cloth.young == 0.0f && !fading;
+  return cloth.young == 0.0f && (!cloth.visible || cloth.fold_share == folds_wanted(cloth));
 }
 
 }  // namespace

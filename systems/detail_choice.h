@@ -24,10 +24,9 @@ struct ClothWork {
 
 /// A cloth gives up a step of detail where time is so scarce that scarcity >= loss of the step * importance, and takes
 /// it back below .8 of that. Among equals the first give up first; importance counts as a millionth of the largest at
-/// least. Where the cloths with what they have now are
-/// expected to cost more than the budget, scarcity rises until that is .95 of it; where less than .8 of it, it falls
-/// as far as that stays under .9. In between only importance changes anything, so that measured times, which waver, do
-/// not make detail flicker.
+/// least. Where the cloths with what they have now are expected to cost more than the budget, scarcity rises until that
+/// is .95 of it; where less than .8 of it, it falls as far as that stays under .9. In between only importance changes
+/// anything, so that measured times, which waver, do not make detail flicker.
 /// Reads:  budget ms; pace ms for a unit of work; scarcity as it was; importance and work of the candidates
 /// Writes: given_up of the candidates
 /// Cost:   O(n), no allocation. Errors: none; what cannot be kept is kept as nearly as possible.

@@ -28,7 +28,7 @@ struct Crowd {
   void keep(float budget) { scarcity = job(budget, 1.0f).run(); }
   float work() const {
     float sum = 0.0f;
-    for (const DetailCandidate& c : candidates) sum += c.work_now();
+    for (const DetailCandidate& c : candidates) sum += c.work[c.given_up];
     return sum;
   }
   std::vector<std::uint32_t> given_up() const {
