@@ -41,8 +41,8 @@ class Scene {
   operator pleat_world*() { return world_; }
   World& inside() { return *reinterpret_cast<World*>(world_); }
 
-  /// A sheet of n x n particles of 1 m2, held at two corners.
-  pleat_garment sheet(std::uint32_t n) {
+  /// A sheet of n x n particles of 1 m2, held at two corners, or at the first of them, or at none.
+  pleat_garment sheet(std::uint32_t n, std::uint32_t pin_count = 2) {
     pleat_shape_def shape;
     must(call::shape_def_init(&shape, sizeof shape));
     shape.rows = shape.columns = n;
@@ -59,7 +59,7 @@ class Scene {
     def.triangles = indices.data();
     def.triangle_count = triangles;
     def.pins = pins;
-    def.pin_count = 2;
+    def.pin_count = pin_count;
     pleat_garment garment{};
     must(call::garment_create(world_, &def, nullptr, &garment));
     return garment;

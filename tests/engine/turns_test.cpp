@@ -148,6 +148,22 @@ TEST(Turns, LayersAndClothWithItsOwnSubstepsTakeEveryTick) {
 #endif
 }
 
+/// It would stop in the air.
+TEST(Turns, ClothWithoutPinsTakesEveryTick) {
+  Scene scene;
+  scene.cloth(scene.sheet(7, 0)), scene.cloth(scene.sheet(7));
+  scene.step(62, kFrame);
+  for (int i = 0; i < 40; ++i) must(call::world_keep_budget(scene, 1.0f, 1000.0f));
+  int free_waits = 0, hanging_waits = 0;
+  for (int tick = 0; tick < 2 * kLongest; ++tick) {
+    scene.step(1, kFrame);
+    free_waits += scene.inside().clothes[0].carried, hanging_waits += scene.inside().clothes[1].carried;
+  }
+  EXPECT_EQ(free_waits, 0);
+  EXPECT_GT(hanging_waits, kLongest / 2);
+  EXPECT_EQ(scene.stats().ticks_given_up, 1u);
+}
+
 TEST(Turns, ClothsBetweenThatTakeAllTicksDoNotMatter) {
   Parade p(1);
   pleat_cloth_settings own = Scene::default_settings();
