@@ -4,7 +4,7 @@
 source "$(dirname -- "${BASH_SOURCE[0]}")/../demo/setup.sh"
 
 quick=0
-case ${1-} in
+case $* in
   '') ;;
   --quick) quick=1 ;;
   *)
@@ -15,7 +15,7 @@ Builds the preset \`release\` if need be, runs all programs of bench and writes 
 and SVG files that it links to. Takes some 25 minutes on an idle machine; with --quick, smaller grids and fewer runs,
 less than three minutes. A bar that is missed is reported and no error; the exit status is 1 where a program failed.
 HELP
-    [[ $1 == --help || $1 == -h ]] && exit
+    [[ $* == --help || $* == -h ]] && exit
     exit 2
     ;;
 esac
