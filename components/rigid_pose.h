@@ -72,6 +72,8 @@ struct RigidMotion {
   RigidMotion moved(const Vec3& by) const { return {from + by, to + by, rotation}; }
   /// This one first.
   RigidMotion then(const RigidMotion& next) const { return {from, next.apply(to), next.rotation * rotation}; }
+  /// The same, told of another point.
+  RigidMotion about(const Vec3& p) const { return {p, apply(p), rotation}; }
 };
 
 /// How a rigid body gets from one pose to another.

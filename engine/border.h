@@ -159,6 +159,12 @@ Def read_def(const char* name, const Def* given, const Def& defaults) {
   return def;
 }
 
+/// Whether a call would set what is set already: then it changes nothing, and wakes nobody.
+template <class Settings>
+bool same_bytes(const Settings& a, const Settings& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 /// Fills the caller's struct, maybe an older and smaller one, as far as its size reaches.
 template <class Struct>
 void write_sized(const char* name, Struct* given, const Struct& all) {

@@ -89,9 +89,13 @@ void fade_folds(World& world, ClothRecord& cloth, float dt) {
   if (cloth.fold_share == folds) return;
   cloth.fold_share = faded(cloth.fold_share, folds, dt * kFoldsFade);
   replan(world, cloth);
-  if (cloth.fold_share == 0.0f && world.surface.fold_height.size() != 0) {  // nothing will draw or change them
-    std::fill_n(world.surface.fold_height.data() + cloth.edge_begin, cloth.garment().edge_count, 0.0f);
-  }
+  if (cloth.fold_share == 0.0f) flatten_folds(world, cloth);
+}
+
+void flatten_folds(World& world, ClothRecord& cloth) {
+  cloth.sides_known = false;
+  if (world.surface.fold_height.size() == 0) return;
+  std::fill_n(world.surface.fold_height.data() + cloth.edge_begin, cloth.garment().edge_count, 0.0f);
 }
 
 }  // namespace pleat

@@ -23,6 +23,10 @@ inline bool has_folds_to_give(const ClothRecord& cloth) {
 inline bool gives_up_folds(const ClothRecord& cloth) { return cloth.given_up > 0 && has_folds_to_give(cloth); }
 /// Where its fold_share goes.
 inline float folds_wanted(const ClothRecord& cloth) { return gives_up_folds(cloth) ? 0.0f : 1.0f; }
+/// Folds come or go where it is seen.
+inline bool shows_fading(const ClothRecord& cloth) { return cloth.visible && cloth.fold_share != folds_wanted(cloth); }
+/// Where folds are given up their height is none, which tessellation relies on; when they come back they choose anew.
+void flatten_folds(World& world, ClothRecord& cloth);
 
 inline bool has_substeps_to_give(const ClothRecord& cloth) { return cloth.settings.substeps == 0; }
 inline bool gives_up_substeps(const ClothRecord& cloth) {

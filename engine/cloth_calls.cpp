@@ -101,6 +101,26 @@ void move_pins_to_particles(World& world, const ClothRecord& cloth) {
   }
 }
 
+/// On average, m/s.
+Vec3 velocity_of_pins(const World& world, const ClothRecord& cloth) {
+  const Column<std::uint32_t>& pins = cloth.garment().pins;
+  Vec3 sum;
+  for (const std::uint32_t pin : pins) sum += world.particles.velocity.view()[cloth.particle_begin + pin];
+  return sum * (1.0f / static_cast<float>(std::max<std::size_t>(pins.size(), 1)));
+}
+
+/// Where it is allowed to be.
+void need_room_for_jump(const World& world, const ClothRecord& cloth, const RigidMotion& jump) {
+  const ConstVec3View x = world.particles.position.view().from(cloth.particle_begin);
+  for (std::uint32_t i = 0; i < cloth.garment().particle_count; ++i) {
+    const Vec3 there = jump.apply(x[i] + cloth.origin);
+    for (const float place : {there.x, there.y, there.z}) {
+      if (std::abs(place) <= kFarthest) continue;
+      refuse("to would take the cloth to " + std::to_string(place) + ", beyond " + std::to_string(kFarthest) + " m");
+    }
+  }
+}
+
 }  // namespace
 
 pleat_result cloth_def_init(pleat_cloth_def* def, size_t size) {
@@ -153,6 +173,7 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
     const pleat_cloth_settings wanted = read_def("settings", settings, record.settings);
     need_settings(wanted);
     const pleat_cloth_settings old = record.settings;
+    if (same_bytes(wanted, old)) return;
     set_cloth(world, record, wanted);
     try {
       refresh(world, record);
@@ -206,12 +227,13 @@ pleat_result cloth_move_pins(pleat_world* handle, pleat_cloth cloth, const float
                              uint32_t count) {
   return guarded(as_world(handle), "cloth_move_pins", [&] {
     World& world = need_world(handle);
-    const ClothRecord& record = need_cloth(world, cloth);
+    ClothRecord& record = need_cloth(world, cloth);
     const std::size_t pins = record.garment().pins.size();
     if (count != pins)
       refuse("count is " + std::to_string(count) + ", the garment has " + std::to_string(pins) + " pins");
     const HostVectors next("positions", positions, stride, count);
     for (std::uint32_t k = 0; k < count; ++k) world.pin_next.view().set(record.pin_begin + k, next[k] - record.origin);
+    record.pins_told = true;
   });
 }
 
@@ -248,7 +270,8 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
     }
     move_pins_to_particles(world, record);
     recentre(world, record);
-    record.pin_velocity = {};
+    record.pin_velocity = velocity_of_pins(world, record);
+    record.pins_told = false;
     record.declared_jump.reset();
     record.settling = velocities == nullptr ? kSettling : 0.0f;
     record.young = kYoung;
@@ -262,10 +285,13 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
 pleat_result cloth_teleport(pleat_world* handle, pleat_cloth cloth, const float from[3], const float to[3],
                             const float rotation[4]) {
   return guarded(as_world(handle), "cloth_teleport", [&] {
+    const World& world = need_world(handle);
     ClothRecord& record = need_cloth(need_world(handle), cloth);
     const Vec3 begin = need_place("from", from), end = need_place("to", to);
-    const RigidMotion jump{begin, end, rotation != nullptr ? need_rotation("rotation", rotation) : Quaternion{}};
-    record.declared_jump = record.declared_jump ? record.declared_jump->then(jump) : jump;
+    RigidMotion jump{begin, end, rotation != nullptr ? need_rotation("rotation", rotation) : Quaternion{}};
+    if (record.declared_jump) jump = record.declared_jump->then(jump).about(record.origin);
+    need_room_for_jump(world, record, jump);
+    record.declared_jump = jump;
   });
 }
 

@@ -139,6 +139,18 @@ pleat_collider_settings settings_of(const World& world, const ColliderRecord& re
   return {size, world.planes[i].friction, world.planes[i].thickness, 0.0f, 0.0f};
 }
 
+bool is_enabled(const World& world, const ColliderRecord& record) {
+  switch (record.kind) {
+    case ColliderKind::kCapsule:
+      return world.capsules.enabled[record.position] != 0;
+    case ColliderKind::kMesh:
+      return world.meshes[record.position].mesh.enabled;
+    case ColliderKind::kPlane:
+      break;
+  }
+  return world.planes[record.position].enabled;
+}
+
 const ColliderRecord& need_collider(const World& world, pleat_collider id) {
   return world.colliders[need_handle("collider", world.collider_handles, id)];
 }
@@ -170,7 +182,6 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     } catch (...) {
       if (world.colliders.size() != before) remove_collider(world, static_cast<std::uint32_t>(before));
       drop_idle_bodies(world);
-      replan(world);  // to what it was: there is room for it
       throw;
     }
 #endif
@@ -196,6 +207,7 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
     const ColliderRecord& record = need_collider(world, collider);
+    if (is_enabled(world, record) == (enabled != 0)) return;
     switch (record.kind) {
       case ColliderKind::kCapsule:
         world.capsules.enabled[record.position] = enabled != 0 ? 1 : 0;
@@ -288,8 +300,9 @@ pleat_result collider_set(pleat_world* handle, [[maybe_unused]] pleat_collider c
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
     const ColliderRecord& record = need_collider(world, collider);
-    const pleat_collider_settings wanted = read_def("settings", settings, settings_of(world, record));
+    const pleat_collider_settings old = settings_of(world, record), wanted = read_def("settings", settings, old);
     need_settings(wanted);
+    if (same_bytes(wanted, old)) return;
     set_collider(world, record, wanted);
     wake_all(world);
 #endif

@@ -309,7 +309,7 @@ enum {
 typedef struct pleat_vertex_target {
   uint32_t size;
   void* data;
-  uint32_t stride;          /* bytes from one vertex to the next */
+  uint32_t stride;          /* bytes from one vertex to the next; as many as its attributes reach, not 0 */
   uint32_t capacity;        /* vertices */
   uint32_t position_offset; /* bytes to [3]; PLEAT_NO_ATTRIBUTE, the default of all four, leaves one out */
   uint32_t normal_offset;   /* bytes to [3], unit length */
@@ -519,7 +519,8 @@ typedef struct pleat_api {
   /* The character jumps: when the next tick begins the cloth is carried rigidly, turned by rotation (x, y, z, w; null:
    * not) about `from`, which is brought to `to`, m. It keeps its shape and turns its velocities. Pins that are not
    * moved for that tick come along, and so do the previous poses of bodies that this brings nearer to their next ones:
-   * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. */
+   * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. Refused where
+   * that takes the cloth beyond 1e6 m on an axis. */
   pleat_result (*cloth_teleport)(pleat_world* world, pleat_cloth cloth, const float from[3], const float to[3],
                                  const float rotation[4]);
   /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. Around the
@@ -550,14 +551,14 @@ typedef struct pleat_api {
    * particles, pins, drawn surfaces, poses of bodies and whether they are enabled, what is due at the next tick, and
    * what cloths remember: friction's hold, held bending, sides of folds and of contact, sleep, detail, visibility,
    * importance, the gusts' time. Not in it: garments, settings of cloths and colliders, gravity, wind, gusts, and
-   * pleat_stats. The size changes from tick to tick with contact of cloth with cloth. */
+   * pleat_stats. The size changes from tick to tick with contact of cloth with cloth, folds and visibility. */
   pleat_result (*world_state_size)(const pleat_world* world, uint64_t* bytes);
   /* Refused in callbacks. The same state gives the same bytes, which a host may compare. Allocates nothing. */
   pleat_result (*world_save)(const pleat_world* world, void* to, uint64_t capacity);
   /* Into the world that was saved, or one that has the same garments, cloths and colliders, made in the same order,
-   * with the same settings, mesh bodies in the same poses; handles stay. For the same build of the library on the same
-   * kind of machine: no file format. Bytes that do not fit the world, and numbers that no tick leaves behind, are
-   * refused and nothing has changed. */
+   * with the same settings, set before (a change wakes cloths), mesh bodies in the same poses; handles stay. For the
+   * same build of the library on the same kind of machine: no file format. Bytes that do not fit the world, and numbers
+   * that no tick leaves behind, are refused and nothing has changed. */
   pleat_result (*world_load)(pleat_world* world, const void* from, uint64_t bytes);
 } pleat_api;
 

@@ -71,6 +71,7 @@ void collect_counts(World& world) {
 
 /// What was next becomes previous: a pin or body that is not moved again stands still.
 void settle_poses(World& world) {
+  for (ClothRecord& cloth : world.clothes) cloth.pins_told = false;
   copy(world.pin_previous.view(), world.pin_next.view(), world.pin_next.size());
   CapsuleColumns& c = world.capsules;
   copy(c.previous_a.view(), c.next_a.view(), c.size());
@@ -194,11 +195,9 @@ void draw(World& world, ClothRecord& cloth) {
 void replan(const World& world, ClothRecord& cloth) { cloth.plan = plan_of(world, cloth); }
 
 void replan(World& world) {
+  for (const ClothRecord& cloth : world.clothes) make_room(world, cloth);
   wake_all(world);
-  for (ClothRecord& cloth : world.clothes) {
-    make_room(world, cloth);
-    cloth.plan = plan_of(world, cloth);
-  }
+  for (ClothRecord& cloth : world.clothes) replan(world, cloth);
 }
 
 BodyCensus body_census(const World& world) {

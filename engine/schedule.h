@@ -25,7 +25,8 @@ namespace pleat {
 void refresh(World& world, ClothRecord& cloth);
 /// Brings its drawn surface alone up to date.
 void draw(World& world, ClothRecord& cloth);
-/// The same decision for all cloths, after the scene's gravity or wind changed. Throws std::bad_alloc.
+/// The same decision for all cloths, after the scene's gravity or wind changed. Throws std::bad_alloc; all plans are as
+/// they were then.
 void replan(World& world);
 
 /// What plans and room depend on among the bodies.
@@ -36,7 +37,7 @@ struct BodyCensus {
 };
 BodyCensus body_census(const World& world);
 /// The same after a body came or went: nothing is decided anew unless the census has changed, so that a crowd's bodies
-/// take no longer the more there are. Throws std::bad_alloc.
+/// take no longer the more there are. Throws std::bad_alloc; all plans are as they were then.
 void replan(World& world, const BodyCensus& before);
 
 /// And for one cloth, whose need of optional columns is as it was: on any thread.

@@ -1,5 +1,6 @@
 #include "engine/sleep.h"
 
+#include "engine/budget.h"
 #include "engine/schedule_row.h"
 #include "systems/disturbance.h"
 
@@ -50,7 +51,14 @@ void wake_all(World& world) {
   for (ClothRecord& cloth : world.clothes) wake(cloth);
 }
 
-bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }
+void wake_around_bodies(World& world, Worker& worker) {
+  if (!world.has_colliders()) return;
+  for (ClothRecord& cloth : world.clothes) {
+    if (cloth.calm > 0.0f && is_disturbed(ClothTick(world, worker, cloth))) wake(cloth);
+  }
+}
+
+bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !shows_fading(t.cloth) && !is_disturbed(t); }
 
 void stir(ClothTick& t) {
   if (t.settings.sleep_speed > 0.0f && is_disturbed(t)) wake(t.cloth);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/border.h"
+#include "engine/budget.h"
 #include "engine/calls.h"
 #include "engine/cloth_tick.h"
 #include "engine/schedule.h"
@@ -15,7 +16,7 @@ namespace pleat::call {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x54414c50;  // "PLAT", and which end of a number comes first
-constexpr std::uint32_t kFormat = 4;          // one more whenever the list below changes
+constexpr std::uint32_t kFormat = 5;          // one more whenever the list below changes
 
 /// Pairs of a cloth with itself or with those below it, in the order in which they are found.
 template <class Io, class Pairs>
@@ -97,7 +98,7 @@ void visit_shape(const World& world, Io& io, std::uint64_t bytes) {
 
 /// The surface as it was drawn, and what the next one goes by.
 template <class W, class Io, class Cloth>
-void visit_surface(W& world, Io& io, Cloth& cloth) {
+void visit_surface(W& world, Io& io, Cloth& cloth, bool folded, bool sides_known) {
   const TessellationPattern* pattern = cloth.pattern();
   if (pattern == nullptr) return;
   const pleat_cloth_settings& s = cloth.settings;
@@ -105,9 +106,11 @@ void visit_surface(W& world, Io& io, Cloth& cloth) {
   if (s.surface != PLEAT_SURFACE_FLAT) {
     vectors(io, "normals", world.surface.normal.view().from(cloth.normal_begin), normals, kFinite);
   }
-  if (has_folds(static_cast<SurfaceMode>(s.surface))) {
+  if (folded && has_folds(static_cast<SurfaceMode>(s.surface))) {
     vectors(io, "folds", world.surface.fold.view().from(cloth.edge_begin), edges, kFinite);
     io.array("fold heights", world.surface.fold_height.data() + cloth.edge_begin, edges, kPlace);
+  }
+  if (sides_known && s.surface == PLEAT_SURFACE_PLEAT) {
     io.array("fold sides", world.surface.fold_side.data() + cloth.edge_begin, edges, kUnit);
   }
   const std::size_t shaded = pattern->shaded_count();
@@ -163,7 +166,7 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
   vector(io, "pins' velocity", cloth.pin_velocity, kFinite);
   number(io, "importance", cloth.importance, {0.0, 1e30});
   number(io, "detail", cloth.given_up, {0.0, kMostGivenUp});
-  number(io, "detail", cloth.fold_share, kShare);
+  const bool folded = number(io, "detail", cloth.fold_share, kShare) > 0.0f;
   number(io, "detail", cloth.substep_share, kShare);
   flag(io, "detail", cloth.carried);
   number(io, "detail", cloth.travelled, kPositive);
@@ -179,8 +182,9 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
   } else if constexpr (!std::is_const_v<Cloth>) {
     cloth.declared_jump.reset();
   }
-  flag(io, "fold sides", cloth.sides_known);
-  if (flag(io, "visible", cloth.visible)) visit_surface(world, io, cloth);
+  const bool sides_known = flag(io, "fold sides", cloth.sides_known);
+  flag(io, "pins", cloth.pins_told);
+  if (flag(io, "visible", cloth.visible)) visit_surface(world, io, cloth, folded, sides_known);
 }
 
 template <class W, class Io>
@@ -226,7 +230,10 @@ std::uint64_t state_bytes(const World& world) {
 
 /// What follows from the state.
 void catch_up(World& world) {
-  for (ClothRecord& cloth : world.clothes) replan(world, cloth);
+  for (ClothRecord& cloth : world.clothes) {
+    replan(world, cloth);
+    if (cloth.fold_share == 0.0f) flatten_folds(world, cloth);
+  }
   world.capsules_filed = false;
 #ifdef PLEAT_WITH_COLLISION
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {

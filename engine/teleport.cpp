@@ -1,6 +1,7 @@
 #include "engine/teleport.h"
 
 #include <string>
+#include <utility>
 
 #include "engine/layers.h"
 #include "engine/origin.h"
@@ -35,10 +36,10 @@ void carry(ClothTick& t, const RigidMotion& jump) {
   const Vec3View previous = world.pin_previous.view().from(t.cloth.pin_begin),
                  next = world.pin_next.view().from(t.cloth.pin_begin);
   for (std::size_t k = 0; k < t.garment.pins.size(); ++k) {
-    const bool moved = !(next[k] == previous[k]);
     previous.set(k, near.apply(previous[k]));
-    next.set(k, moved ? next[k] - far : previous[k]);
+    next.set(k, t.cloth.pins_told ? next[k] - far : previous[k]);
   }
+  if (std::exchange(world.last_jump, world.ticks) != world.ticks) wake_around_bodies(world, t.worker);
   carry_bodies(world, jump.moved(t.cloth.origin));
   t.cloth.origin += far;
   t.cloth.bending_left = 0.0f;
@@ -66,13 +67,17 @@ void teleport(ClothTick& t) {
   }
   cloth.declared_jump.reset();
   std::optional<RigidMotion> found;
-  if (t.settings.teleport_speed > 0.0f && t.garment.pins.size() != 0) {
-    found = run(PinJump{.count = t.garment.pins.size(),
-                        .previous = t.pin_previous,
-                        .next = t.pin_next,
-                        .dt = t.frame_dt,
-                        .speed = t.settings.teleport_speed,
-                        .velocity = &cloth.pin_velocity});
+  if (t.garment.pins.size() != 0) {
+    const Vec3 before = cloth.pin_velocity;
+    cloth.pin_velocity = mean_motion(t.pin_previous, t.pin_next, t.garment.pins.size()) * (1.0f / t.frame_dt);
+    if (t.settings.teleport_speed > 0.0f) {
+      found = run(PinJump{.count = t.garment.pins.size(),
+                          .previous = t.pin_previous,
+                          .next = t.pin_next,
+                          .speed = t.settings.teleport_speed,
+                          .velocity = cloth.pin_velocity,
+                          .velocity_before = before});
+    }
     if (found) carry(t, *found), report_jump(t, *found);
   }
   if (declared || found) ++t.worker.stats.teleports;

@@ -41,9 +41,7 @@ float travel_into_planes(const ClothTick& t, float reach) {
 #endif
 
 /// Old enough, and nothing fades that would be seen to.
-bool may_wait(const ClothRecord& cloth) {
-  return cloth.young == 0.0f && (!cloth.visible || cloth.fold_share == folds_wanted(cloth));
-}
+bool may_wait(const ClothRecord& cloth) { return cloth.young == 0.0f && !shows_fading(cloth); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "engine/layers.h"
 #include "engine/origin.h"
+#include "engine/room.h"
 
 #ifdef PLEAT_WITH_COLLISION
 #include "systems/collision_bodies.h"
@@ -239,12 +240,13 @@ void forget_motion(World& world, ClothRecord& cloth) {
 
 void set_cloth(World& world, ClothRecord& cloth, const pleat_cloth_settings& settings) {
   const pleat_cloth_settings& old = cloth.settings;
+  ClothRecord wanted = cloth;
+  wanted.settings = settings;
   want_pattern(world, *cloth.source, settings.level);
+  make_room(world, wanted);
   if (settings.level != old.level) {
-    ClothRecord moved = cloth;
-    moved.settings.level = settings.level;
     const std::size_t old_end = world.drawn.position.size();
-    resize_drawn(world, old_end + drawn_range(moved));
+    resize_drawn(world, old_end + drawn_range(wanted));
     const std::uint32_t old_count = drawn_range(cloth);
     close_drawn_gap(world, cloth);
     cloth.drawn_begin = static_cast<std::uint32_t>(old_end) - old_count;

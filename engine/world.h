@@ -90,6 +90,7 @@ struct ClothRecord {
   float calm = 0.0f;                  // s, since when nothing has moved; sleep.h
   float settling = kSettling;         // s, for how much longer a start that does not fit is held back
   std::optional<RigidMotion> declared_jump;  // the host's, for the next tick
+  bool pins_told = false;                    // where they shall be at its end
   std::uint64_t last_tick = 0;               // `ticks` of the world when it last ran
 
   const Garment& garment() const { return source->garment; }
@@ -172,7 +173,8 @@ struct World {
 
   Stats stats;
   std::uint64_t ticks = 0, substeps = 0;
-  double time = 0.0;  // s, of all ticks so far: the gusts' clock
+  std::uint64_t last_jump = 0;  // `ticks` when a cloth last jumped, and bodies with it
+  double time = 0.0;            // s, of all ticks so far: the gusts' clock
 
   mutable bool busy = false;  // see Busy
 

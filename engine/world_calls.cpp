@@ -78,6 +78,7 @@ pleat_result world_set_gravity(pleat_world* handle, const float gravity[3]) {
   return guarded(as_world(handle), "world_set_gravity", [&] {
     World& world = need_world(handle);
     need_small("gravity", gravity, kMostGravity);
+    if (std::equal(gravity, gravity + 3, world.def.gravity)) return;
     std::copy_n(gravity, 3, world.def.gravity);
     replan(world);
   });
@@ -87,6 +88,7 @@ pleat_result world_set_wind(pleat_world* handle, const float wind[3]) {
   return guarded(as_world(handle), "world_set_wind", [&] {
     World& world = need_world(handle);
     need_small("wind", wind, kMostWind);
+    if (std::equal(wind, wind + 3, world.def.wind)) return;
     std::copy_n(wind, 3, world.def.wind);
     wake_all(world);
   });
@@ -96,6 +98,8 @@ pleat_result world_set_gust(pleat_world* handle, float gust, float frequency, ui
   return guarded(as_world(handle), "world_set_gust", [&] {
     World& world = need_world(handle);
     need_gust(gust, frequency);
+    const pleat_world_def& old = world.def;
+    if (gust == old.gust && frequency == old.gust_frequency && seed == old.gust_seed) return;
     world.def.gust = gust;
     world.def.gust_frequency = frequency;
     world.def.gust_seed = seed;

@@ -9,15 +9,15 @@ constexpr float kMostTurnHalfCosine = 0.2588f;  // cos(150 degrees / 2)
 
 }  // namespace
 
-bool PinJump::validate() const {
-  return count > 0 && previous.x != nullptr && next.x != nullptr && dt > 0.0f && speed > 0.0f && velocity != nullptr;
+Vec3 mean_motion(ConstVec3View previous, ConstVec3View next, std::size_t count) {
+  return mean_of(next, count) - mean_of(previous, count);
 }
+
+bool PinJump::validate() const { return count > 0 && previous.x != nullptr && next.x != nullptr && speed > 0.0f; }
 
 std::optional<RigidMotion> PinJump::run() const {
   const Vec3 from = mean_of(previous, count), to = mean_of(next, count);
-  const Vec3 last = *velocity;
-  *velocity = (to - from) * (1.0f / dt);
-  const bool far = length(*velocity) > speed && length(*velocity - last) > speed;
+  const bool far = length(velocity) > speed && length(velocity - velocity_before) > speed;
 
   float spread = 0.0f, moved = 0.0f;
   for (std::size_t k = 0; k < count; ++k) {

@@ -13,17 +13,18 @@ namespace pleat {
 ///  - their mean speed v = d / dt and its change since the last tick are both above `speed`. What merely goes fast, a
 ///    train or a fall, does not change by as much in a tick, and what stands still after a jump has no speed; or
 ///  - they turn by more than 150 degrees. On the straight ways that pins take, they would meet half way.
-/// Reads:  previous, next (pins) m.  Writes: velocity m/s, the mean of this tick; read as well, that of the last.
-/// Cost:   O(pins), a few us in a tick with a jump.  Errors: none.
+/// Reads:  previous, next (pins) m.  Cost: O(pins), a few us in a tick with a jump.  Errors: none.
 struct PinJump {
   std::size_t count = 0;
   ConstVec3View previous, next;
-  float dt = 0.0f;     // s, of the tick
-  float speed = 0.0f;  // m/s
-  Vec3* velocity = nullptr;
+  float speed = 0.0f;              // m/s
+  Vec3 velocity, velocity_before;  // m/s, mean of the pins in this tick and in the last
 
   bool validate() const;
   std::optional<RigidMotion> run() const;
 };
+
+/// How far so many points move on average, m.
+Vec3 mean_motion(ConstVec3View previous, ConstVec3View next, std::size_t count);
 
 }  // namespace pleat

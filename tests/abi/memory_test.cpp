@@ -10,10 +10,18 @@ namespace {
 
 class Memory : public Host {
  protected:
+  std::vector<char> saved() {
+    std::uint64_t bytes = 0;
+    EXPECT_EQ(api().world_state_size(world, &bytes), pleat_result{PLEAT_OK});
+    std::vector<char> to(bytes);
+    EXPECT_EQ(api().world_save(world, to.data(), bytes), pleat_result{PLEAT_OK});
+    return to;
+  }
   /// Runs `call` with 0, 1, 2 ... allocations allowed until it succeeds; returns how many it took.
   long fail_until_done(const std::function<pleat_result()>& call) {
     for (long n = 0; n < 1000; ++n) {
       const std::vector<float> before = state();
+      const std::vector<char> saved_before = saved();
       services.allowed = n;
       services.log.clear();
       const pleat_result result = call();
@@ -22,6 +30,7 @@ class Memory : public Host {
       EXPECT_EQ(result, pleat_result{PLEAT_ERROR_MEMORY}) << n;
       EXPECT_NE(services.log.find("out of memory"), std::string::npos);
       EXPECT_EQ(state(), before) << n;
+      EXPECT_EQ(saved(), saved_before) << n;
       EXPECT_EQ(api().world_step(world, 1e-4f), pleat_result{PLEAT_OK});
     }
     ADD_FAILURE() << "never succeeds";
@@ -103,6 +112,10 @@ TEST_F(Memory, RunsOutInClothSet) {
   s.level = 5;
   s.integrator = PLEAT_INTEGRATOR_RUNGE_KUTTA_4;
   EXPECT_GT(fail_until_done([&] { return api().cloth_set(world, cloth, &s); }), 3);
+  const bool collides = (api().features & PLEAT_FEATURE_COLLISION) != 0;
+  s.level = 3, s.layer = collides ? 2 : 0, s.inner_friction = 0.0f;
+  s.tangents = (api().features & PLEAT_FEATURE_SMOOTHING) != 0 ? 1 : 0;
+  EXPECT_GE(fail_until_done([&] { return api().cloth_set(world, cloth, &s); }), collides ? 1 : 0);
 }
 
 TEST_F(Memory, RunsOutInColliderCreate) {

@@ -52,8 +52,9 @@ TEST(Sleep, WhatTheClothDependsOnWakesIt) {
       {"gravity", [&](Asleep& s) { must(call::world_set_gravity(s, moon)); }},
       {"settings",
        [](Asleep& s) {
-         const pleat_cloth_settings same = s.settings(s.id);
-         must(call::cloth_set(s, s.id, &same));
+         pleat_cloth_settings damped = s.settings(s.id);
+         damped.air_damping = 2.5f;
+         must(call::cloth_set(s, s.id, &damped));
        }},
       {"a jump", [&](Asleep& s) { must(call::cloth_teleport(s, s.id, here, here, nullptr)); }},
       {"a place",
@@ -75,7 +76,85 @@ TEST(Sleep, WhatTheClothDependsOnWakesIt) {
   }
 }
 
+TEST(Sleep, WhatIsSetAsItIsWakesNobody) {
+  Asleep scene;
+  for (int tick = 0; tick < 3; ++tick) {
+    const pleat_world_def& def = scene.inside().def;
+    const pleat_cloth_settings same = scene.settings(scene.id);
+    must(call::cloth_set(scene, scene.id, &same));
+    must(call::world_set_gravity(scene, def.gravity));
+    must(call::world_set_wind(scene, def.wind));
+    must(call::world_set_gust(scene, def.gust, def.gust_frequency, def.gust_seed));
+    scene.step();
+    EXPECT_TRUE(scene.asleep()) << tick;
+  }
+}
+
+#ifdef PLEAT_WITH_SMOOTHING
+TEST(Sleep, FoldsComeBackWhileItSleeps) {
+  Asleep scene(0.005f, false);
+  scene.step();
+  for (int i = 0; i < 40; ++i) must(call::world_keep_budget(scene, 1.0f, 1000.0f));
+  for (int i = 0; i < 1800 && !scene.asleep(); ++i) scene.step();
+  ASSERT_TRUE(scene.asleep());
+  ASSERT_EQ(scene.inside().clothes[0].fold_share, 0.0f);
+  must(call::world_keep_budget(scene, 0.0f, 0.0f));
+  scene.step(30);
+  EXPECT_EQ(scene.inside().clothes[0].fold_share, 1.0f);
+  for (int i = 0; i < 600 && !scene.asleep(); ++i) scene.step();
+  EXPECT_TRUE(scene.asleep());
+}
+#endif
+
 #ifdef PLEAT_WITH_COLLISION
+TEST(Sleep, ABodyThatIsRefusedOrSetAsItIsWakesNobody) {
+  Asleep scene(0.005f, false);
+  const pleat_collider ball = scene.sphere(5, 0, 0, 0.1f);
+  for (int i = 0; i < 1200 && !scene.asleep(); ++i) scene.step();
+  pleat_collider_settings same{};
+  same.size = sizeof same;
+  must(call::collider_get(scene, ball, &same));
+  must(call::collider_set(scene, ball, &same));
+  must(call::collider_set_enabled(scene, ball, 1));
+  pleat_collider_def flat;
+  must(call::collider_def_init(&flat, sizeof flat));
+  flat.shape = PLEAT_COLLIDER_BOX;  // without extents
+  pleat_collider none{};
+  const Bytes before = scene.saved();
+  EXPECT_EQ(call::collider_create(scene, &flat, &none), pleat_result{PLEAT_ERROR_ARGUMENT});
+  EXPECT_EQ(scene.saved(), before);
+  scene.step();
+  EXPECT_TRUE(scene.asleep());
+  must(call::collider_set_enabled(scene, ball, 0));
+  scene.step();
+  EXPECT_FALSE(scene.asleep());
+}
+
+/// The body of another cloth, that jumps with it and so does not seem to move.
+TEST(Sleep, ABodyThatJumpsToItOrAwayWakesIt) {
+  for (const bool arrives : {true, false}) {
+    for (const bool declared : {true, false}) {
+      Asleep scene(0.005f, false);
+      const float near[3] = {0, -0.5f, -0.42f}, far[3] = {20, -0.5f, -0.42f};
+      const pleat_cloth other = scene.cloth(scene.sheet(3));
+      std::vector<float> pins{19.5f, 1, -0.5f, 20.5f, 1, -0.5f};
+      const pleat_collider body = scene.sphere(arrives ? 20 : 0, -0.5f, -0.42f, 0.1f);
+      must(call::cloth_move_pins(scene, other, pins.data(), 0, 2));
+      for (int i = 0; i < 1800 && !scene.asleep(); ++i) scene.step();
+      ASSERT_TRUE(scene.asleep());
+      const auto* from = arrives ? far : near;
+      const auto* to = arrives ? near : far;
+      if (declared) must(call::cloth_teleport(scene, other, from, to, nullptr));
+      for (std::size_t k = 0; k < 6; k += 3) pins[k] += to[0] - from[0];
+      must(call::cloth_move_pins(scene, other, pins.data(), 0, 2));
+      must(call::collider_move_capsule(scene, body, to, to));
+      scene.step();
+      EXPECT_EQ(scene.stats().teleports, 2u);  // the first to where it hangs
+      EXPECT_FALSE(scene.asleep()) << arrives << declared;
+    }
+  }
+}
+
 TEST(Sleep, OnlyBodiesThatComeNearWakeIt) {
   Asleep scene(0.005f, false);
   const pleat_collider ball = scene.sphere(5, 0, 0, 0.1f);

@@ -218,6 +218,39 @@ TEST(State, ThereIsNoneWithinATick) {
   EXPECT_EQ(caller.refused, caller.tried);
 }
 
+/// Folds of another surface that was drawn before, of which nothing is left to see.
+TEST(State, WhatIsOfNoConsequenceIsNotInIt) {
+  Scene scene, other;
+  pleat_cloth_settings s = Scene::default_settings();
+  const pleat_cloth cloth = scene.cloth(scene.sheet(6), s);
+  scene.step(20);
+  s.surface = PLEAT_SURFACE_PN;
+  must(call::cloth_set(scene, cloth, &s));
+  const pleat_cloth copy = other.cloth(other.sheet(6), s);
+  must(other.load(scene.saved()));
+  s.surface = PLEAT_SURFACE_PAPER;
+  must(call::cloth_set(scene, cloth, &s)), must(call::cloth_set(other, copy, &s));
+  scene.step(), other.step();
+  EXPECT_EQ(scene.saved(), other.saved());
+}
+
+TEST(State, PinsThatAreToldToStayAreSaved) {
+  const float here[3] = {0, 0, 0}, there[3] = {1, 0, 0}, pins[6] = {-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
+  Scene scene;
+  const pleat_cloth cloth = scene.cloth(scene.sheet(4));
+  must(call::cloth_move_pins(scene, cloth, pins, 0, 2));
+  must(call::cloth_teleport(scene, cloth, here, there, nullptr));
+  const Bytes due = scene.saved();
+  scene.step();
+  const std::vector<float> after = scene.particles(cloth);
+  must(call::cloth_teleport(scene, cloth, here, there, nullptr));  // now they come along
+  scene.step();
+  must(scene.load(due));
+  scene.step();
+  EXPECT_EQ(after[0], pins[0]);
+  EXPECT_TRUE(same_bits(scene.particles(cloth), after));
+}
+
 TEST(State, AJumpThatIsDueIsSaved) {
   const float from[3] = {0, 0, 0}, to[3] = {3, 1, 2}, turn[4] = {0, 0.6f, 0, 0.8f};
   Scene scene, other;

@@ -112,6 +112,68 @@ TEST(Teleport, AClothWithoutPinsIsCarriedWhenDeclared) {
   EXPECT_EQ(scene.particles(cloth)[1], 100.0f);
 }
 
+TEST(Teleport, PinsThatAreToldToStayStay) {
+  Hanging scene;
+  scene.declare({{0, 0, 0}, {1, 0, 0}, {}});
+  must(call::cloth_move_pins(scene, scene.cloth_id, scene.pins.data(), 0, 2));
+  scene.step();
+  const std::vector<float> x = scene.particles(scene.cloth_id);
+  EXPECT_EQ(x[0], scene.pins[0]);
+  EXPECT_EQ(x[3 * (kSide - 1)], scene.pins[3]);
+}
+
+TEST(Teleport, BeyondTheWorldIsRefused) {
+  Hanging scene;
+  const float here[3] = {0, 0, 0}, far[3] = {9e5f, 0, 0}, edge[3] = {1e6f, 0, 0}, back[3] = {-9e5f, 0, 0};
+  must(call::cloth_teleport(scene, scene.cloth_id, here, far, nullptr));
+  EXPECT_EQ(call::cloth_teleport(scene, scene.cloth_id, here, far, nullptr), pleat_result{PLEAT_ERROR_ARGUMENT});
+  for (int i = 0; i < 20; ++i) {  // there and back
+    must(call::cloth_teleport(scene, scene.cloth_id, here, back, nullptr));
+    must(call::cloth_teleport(scene, scene.cloth_id, here, far, nullptr));
+  }
+  EXPECT_EQ(scene.load(scene.saved()), pleat_result{PLEAT_OK});
+  scene.step(2);
+  EXPECT_NEAR(scene.particles(scene.cloth_id)[0], 9e5f - 0.5f, 0.1f);
+  EXPECT_EQ(scene.stats().fallbacks, 0u);
+  EXPECT_EQ(call::cloth_teleport(scene, scene.cloth_id, here, edge, nullptr), pleat_result{PLEAT_ERROR_ARGUMENT});
+  EXPECT_EQ(scene.load(scene.saved()), pleat_result{PLEAT_OK});
+}
+
+/// At a speed of more than teleport_speed.
+struct OnATrain : Hanging {
+  const RigidMotion ahead{{0, 0, 0}, {100.0f / 60, 0, 0}, {}};
+
+  explicit OnATrain(float teleport_speed) : Hanging(teleport_speed) {
+#ifdef PLEAT_WITH_COLLISION
+    must(call::collider_destroy(*this, ball));
+    ball = sphere(0, -50, 0, 0.1f);
+#endif
+    go(5);
+  }
+  void go(int ticks) {
+    for (int i = 0; i < ticks; ++i) place(ahead), step();
+  }
+};
+
+TEST(Teleport, AClothThatIsWrittenAsItWasGoesOn) {
+  OnATrain train(50.0f);
+  const std::vector<float> state = train.particles(train.cloth_id);
+  const std::uint64_t before = train.stats().teleports;
+  must(call::cloth_write_particles(train, train.cloth_id, state.data(), state.data() + 3 * kSide * kSide,
+                                   kSide * kSide));
+  train.go(3);
+  EXPECT_EQ(train.stats().teleports, before);
+}
+
+TEST(Teleport, WhatGoesFastAsItIsLookedForDoesNotJump) {
+  OnATrain train(0.0f);
+  pleat_cloth_settings s = train.settings(train.cloth_id);
+  s.teleport_speed = 50.0f;
+  must(call::cloth_set(train, train.cloth_id, &s));
+  train.go(3);
+  EXPECT_EQ(train.stats().teleports, 0u);
+}
+
 TEST(Teleport, PlacingTheClothAnewEndsIt) {
   Hanging scene;
   std::vector<float> state = scene.particles(scene.cloth_id);

@@ -170,6 +170,29 @@ TEST(Visible, BodiesThatWentMeanwhileAreGoneAtOnce) {
 }
 #endif
 
+#ifdef PLEAT_WITH_SMOOTHING
+TEST(Visible, FoldsThatWereGivenUpStayAwayAfterAStateFromBefore) {
+  Hanging scene, same;
+  for (Hanging* it : {&scene, &same}) {
+    it->tick(1);
+    for (int i = 0; i < 40; ++i) must(call::world_keep_budget(*it, 1.0f, 1000.0f));
+    it->tick(20);
+    ASSERT_EQ(it->inside().clothes[0].fold_share, 0.0f);
+    it->show(false);
+  }
+  const Bytes state = scene.saved();
+  EXPECT_EQ(state, same.saved());
+  must(call::world_keep_budget(scene, 0.0f, 0.0f));
+  scene.show(true);
+  scene.tick(30);
+  ASSERT_EQ(scene.inside().clothes[0].fold_share, 1.0f);
+  must(scene.load(state));
+  for (Hanging* it : {&scene, &same}) it->show(true), it->tick(1);
+  EXPECT_TRUE(same_bits(scene.vertices(scene.id), same.vertices(same.id)));
+  EXPECT_EQ(scene.saved(), same.saved());
+}
+#endif
+
 TEST(Visible, NothingIsAllocated) {
   Hanging scene;
   scene.tick(3);
