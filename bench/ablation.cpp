@@ -1,6 +1,7 @@
 // The program `ablation`: what each part that a scene may do without costs there, and what is lost without it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "bench/budget_report.h"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "demo/input_error.h"
+#include "demo/motion/turn.h"
 
 namespace pleat::bench {
 namespace {
@@ -26,7 +27,7 @@ btVector3 point(std::span<const float> positions, size_t index) {
 /// Bullet's capsules stand about their middle, along y.
 btTransform place(const CapsulePose& capsule, const Eigen::Vector3d& origin) {
   const Eigen::Vector3d a = capsule.a.cast<double>() + origin, b = capsule.b.cast<double>() + origin;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), b - a);
+  const Eigen::Quaterniond turn = demo::turn_from_y<double>(b - a);
   return btTransform({btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())},
                      bullet(0.5 * (a + b)));
 }

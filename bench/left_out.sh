@@ -1,27 +1,25 @@
 #!/usr/bin/env bash
 # Proves that what a scene does not have costs it nothing: counts the instructions of its ticks in the library as it is
-# and in one that was built without the part. Unlike times they are the same on a busy machine.
+# and in one whose engine was built without the part. Unlike times they are the same on a busy machine.
 set -euo pipefail
 shopt -s inherit_errexit # a count that fails is no count of 0
 
 readonly most_percent=0.5 skipped=77
-folder=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
-readonly folder scene='hanging_square:8' frames=50
+readonly scene='hanging_square:8' frames=50
 
 if [[ $# -lt 1 || $1 == --help || $1 == -h ]]; then
   cat <<HELP
-Usage: bench/left_out.sh BUILD [CMAKE OPTION...]
+Usage: bench/left_out.sh BUILD
 
-Of the release build in the folder BUILD, such as build/release: builds its library again without collision and without
-smoothing, in BUILD/without_*, and runs a scene that has neither with each under callgrind. Fails where the ticks differ
-by more than $most_percent %, or where a system that the plan leaves out ran. Options are handed to cmake. Exits $skipped, skipped,
-where valgrind is missing.
+Of the release build in the folder BUILD, such as build/release: builds its library with an engine without collision and
+with one without smoothing, in BUILD/lib/without_*, and runs a scene that has neither with each under callgrind. Fails
+where the ticks differ by more than $most_percent %, or where a system that the plan leaves out ran. Exits $skipped, skipped, where
+valgrind is missing.
 HELP
   exit $(($# < 1 ? 2 : 0))
 fi
 build=$(cd -- "$1" && pwd)
 readonly build program="$build/bin/play_frames"
-shift
 
 if ! command -v valgrind >/dev/null; then
   echo 'skipped: valgrind is not installed'
@@ -47,17 +45,10 @@ count() { # name library [setting...]
 
 status=0
 compare() { # part [setting...]
-  local part=$1 tree="$build/without_$1" with without
-  if ! {
-    cmake -S "$folder" -B "$tree" -DCMAKE_BUILD_TYPE=Release "-DPLEAT_${part^^}=OFF" -DPLEAT_DEMO=OFF -DPLEAT_BENCH=OFF \
-      -DPLEAT_TESTS=OFF "${cmake_options[@]}" && cmake --build "$tree" --target pleat --parallel 2
-  } >"$work/log" 2>&1; then
-    cat -- "$work/log"
-    exit 1
-  fi
+  local part=$1 with without
   shift
   with=$(count "$part" "$build/lib" "$@")
-  without=$(count "${part}_without" "$tree/lib" "$@")
+  without=$(count "${part}_without" "$build/lib/without_$part" "$@")
   awk -v part="$part" -v settings="$*" -v with="$with" -v without="$without" -v most="$most_percent" 'BEGIN {
     percent = 100 * (with / without - 1)
     printf "%-10s %12d instructions with it compiled in, %12d without: %+.4f %%%s\n", part, with, without, percent,
@@ -66,8 +57,12 @@ compare() { # part [setting...]
   }' || status=1
 }
 
+cmake --build "$build" --target pleat_without_collision pleat_without_smoothing --parallel 2 >"$work/log" 2>&1 || {
+  cat -- "$work/log"
+  exit 1
+}
+
 echo "$scene, $frames frames: the ticks of a scene without the part"
-cmake_options=("$@")
 compare collision
 compare smoothing surface=flat level=1
 

@@ -1,6 +1,7 @@
 #include "bench/machine.h"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "build_info.h"

@@ -2,6 +2,7 @@
 // sample what they cost (instructions.sh).
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

@@ -152,7 +152,7 @@ next section says which part of the simulation puts them there.' \
     'Microseconds a frame saved where a part is left out, and what that adds to the faults of the cloth. Parts marked +
 are put in first. Where cloth may fold in several ways chance moves it too: read distances beside those of the first row.'
   section left_out 'What a scene does not have' \
-    'Instructions of its ticks, in the library as it is and in one that was built without the part.'
+    'Instructions of its ticks, in the library as it is and in one whose engine was built without the part.'
   section scaling 'As it grows' \
     'What half a second costs for each particle, as one cloth and as a crowd grows; 1 is the middle of the range.'
   [[ -x $bin/systems ]] && section systems 'System by system' \

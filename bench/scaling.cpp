@@ -1,6 +1,7 @@
 // The program `scaling`: whether what a frame costs grows with the number of particles, and no faster.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "demo/report.h"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "demo/quality/scene_quality.h"

@@ -1,6 +1,7 @@
 // Ensembles as tables, as JSON, and as they are kept in files.
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "bench/error/ensemble.h"
 #include "bench/fine_square.h"

@@ -1,6 +1,7 @@
 #include "demo/quality/scene_quality.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace pleat::demo {
 namespace {

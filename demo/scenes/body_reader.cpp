@@ -5,6 +5,7 @@
 
 #include "demo/input_error.h"
 #include "demo/motion/bvh.h"
+#include "demo/motion/turn.h"
 #include "demo/scenes/hull.h"
 #include "demo/scenes/icosphere.h"
 
@@ -30,7 +31,7 @@ RigidBody read_plane(const JsonValue& shape) {
   const Eigen::Vector3f normal = read_point(shape.at("normal"));
   if (!(normal.norm() > 1e-6f)) shape.at("normal").fail("should not be zero");
   RigidBody plane{.kind = PLEAT_COLLIDER_PLANE, .position = read_point(shape.at("point"))};
-  plane.rotation = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), normal);
+  plane.rotation = turn_from_y(normal);
   plane.outline = make_hull(box_corners({0.0f, -0.5f, 0.0f}, {kSlab, 0.5f, kSlab}), plane.position, plane.rotation);
   return plane;
 }

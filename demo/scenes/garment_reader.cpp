@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "demo/scenes/coarsen.h"
 #include "demo/scenes/cut_to_length.h"

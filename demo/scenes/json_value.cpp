@@ -1,6 +1,7 @@
 #include "demo/scenes/json_value.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "demo/input_error.h"

@@ -29,7 +29,7 @@ const std::vector<Vector3d> kCorners = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 
 void show(SurfaceMotionMeter& meter, const Eigen::Affine3d& transform) {
   std::vector<float> particles;
   std::vector<Vertex> drawn;
-  const Eigen::Vector3f normal = (transform.rotation() * Vector3d::UnitY()).cast<float>();
+  const Eigen::Vector3f normal = (transform.linear() * Vector3d::UnitY()).normalized().cast<float>();
   for (const Vector3d& corner : kCorners) {
     const Eigen::Vector3f p = (transform * corner).cast<float>();
     particles.insert(particles.end(), {p.x(), p.y(), p.z()});
