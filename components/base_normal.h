@@ -13,11 +13,13 @@ namespace pleat {
 
 /// What the cross product of two sides of a face is multiplied by at its corners 0, 1, 2; 1/m^2.
 /// side: rest lengths of the face's sides 0, 1, 2, m. With the mean edge length of the garment in the numerator a face
-/// at rest counts about as much as a unit vector.
+/// at rest counts about as much as a unit vector. A face of less than about 1 um counts for less, so that all stays
+/// finite.
 template <class T>
 inline std::array<T, 3> corner_weights(const std::array<T, 3>& side, float mean_length) {
   const std::array<T, 3> square{side[0] * side[0], side[1] * side[1], side[2] * side[2]};
-  const T scale = mean_length * mean_length / (square[0] * square[1] * square[2]);
+  const float mean_square = mean_length * mean_length, least = 1e-37f * max(mean_square, 1.0f);
+  const T scale = mean_square / max(square[0] * square[1] * square[2], T{} + least);
   return {scale * square[1], scale * square[2], scale * square[0]};  // the side across from the corner cancels
 }
 

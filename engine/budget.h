@@ -5,6 +5,9 @@
 
 namespace pleat {
 
+/// Of a cloth, as the host may set it.
+inline constexpr float kMostImportance = 1e30f;
+
 /// Chooses anew, after a tick that took cost_ms; budget_ms = 0: nothing is given up. Throws std::bad_alloc, and nothing
 /// has changed, only when there are more cloths than ever before.
 void keep_budget(World& world, float budget_ms, float cost_ms);

@@ -1,6 +1,7 @@
 #include <cstddef>
 
 #include "engine/border.h"
+#include "engine/budget.h"
 #include "engine/calls.h"
 #include "engine/cloth_tick.h"
 #include "engine/layers.h"
@@ -189,7 +190,7 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
 pleat_result cloth_set_importance(pleat_world* handle, pleat_cloth cloth, float importance) {
   return guarded(as_world(handle), "cloth_set_importance", [&] {
     ClothRecord& record = need_cloth(need_world(handle), cloth);
-    need_range("importance", importance, 0.0, 1e30);
+    need_range("importance", importance, 0.0, double{kMostImportance});
     record.importance = importance;
   });
 }

@@ -58,25 +58,21 @@ MeshCollider read_mesh(World& world, const pleat_collider_def& def) {
   return mesh;
 }
 
-std::pmr::vector<Vec3> read_corners(World& world, const pleat_collider_def& def) {
-  std::pmr::vector<Vec3> corners(&world.memory);
-  if (def.shape == PLEAT_COLLIDER_BOX) {
-    for (const float extent : def.half_extents) need_range("half_extents", extent, 1e-4, kMostRadius);
-    const Vec3 half{def.half_extents[0], def.half_extents[1], def.half_extents[2]};
-    for (unsigned k = 0; k < 8; ++k) {
-      corners.push_back({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z});
-    }
-    return corners;
-  }
-  need_range("vertex_count", def.vertex_count, 4, kMostHullPoints);
-  const HostVectors positions("positions", def.positions, def.position_stride, def.vertex_count);
-  for (std::uint32_t i = 0; i < def.vertex_count; ++i) corners.push_back(positions[i]);
-  return corners;
+MeshCollider read_box(World& world, const pleat_collider_def& def) {
+  const RigidPose pose = need_pose(def.position, def.rotation);
+  for (const float extent : def.half_extents) need_range("half_extents", extent, 1e-4, kMostRadius);
+  MeshCollider box = build_box({def.half_extents[0], def.half_extents[1], def.half_extents[2]}, &world.memory);
+  place_rigid(box, pose);
+  return box;
 }
 
 MeshCollider read_hull(World& world, const pleat_collider_def& def) {
   const RigidPose pose = need_pose(def.position, def.rotation);
-  MeshCollider hull = build_hull(read_corners(world, def), &world.memory);
+  need_range("vertex_count", def.vertex_count, 4, kMostHullPoints);
+  const HostVectors positions("positions", def.positions, def.position_stride, def.vertex_count);
+  std::pmr::vector<Vec3> points(&world.memory);
+  for (std::uint32_t i = 0; i < def.vertex_count; ++i) points.push_back(positions[i]);
+  MeshCollider hull = build_hull(points, &world.memory);
   if (hull.triangles.size() == 0) refuse("positions lie in a plane: they have no hull with an inside");
   place_rigid(hull, pose);
   return hull;
@@ -93,6 +89,8 @@ Handle add_collider(World& world, const pleat_collider_def& def) {
       return add_plane(world, need_pose(def.position, def.rotation));
     case PLEAT_COLLIDER_MESH:
       return add_mesh(world, def.shape, read_mesh(world, def));
+    case PLEAT_COLLIDER_BOX:
+      return add_mesh(world, def.shape, read_box(world, def));
     default:
       return add_mesh(world, def.shape, read_hull(world, def));
   }

@@ -67,7 +67,7 @@ inline void move_capsules(ClothTick& t, float reach) {
 }
 
 inline ContactList contacts_of(ClothTick& t) {
-  return {t.worker.contacts.data(), static_cast<std::uint32_t>(t.worker.contacts.size()), &t.worker.contact_count};
+  return {t.worker.contacts.data(), contact_room(t.cloth), &t.worker.contact_count};
 }
 inline NearPairList self_pairs_of(ClothTick& t) {
   constexpr std::uint32_t kPairs = SelfColumns::kPairsPerParticle;

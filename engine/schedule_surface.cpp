@@ -62,8 +62,7 @@ const char* with_fold_relaxation(const World& w, const ClothRecord& c) {
 float surface_clearance(const ClothTick& t) { return 0.5f * t.settings.thickness; }
 
 ClearanceList clearance_planes(ClothTick& t) {
-  return {t.worker.clearance_planes.data(), static_cast<std::uint32_t>(t.worker.clearance_planes.size()),
-          &t.worker.clearance_plane_count};
+  return {t.worker.clearance_planes.data(), clearance_room(t.cloth), &t.worker.clearance_plane_count};
 }
 #endif
 

@@ -164,7 +164,7 @@ void visit_cloth(W& world, Io& io, Cloth& cloth) {
     number(io, "contacts", *count, kCount);
   }
   vector(io, "pins' velocity", cloth.pin_velocity, kFinite);
-  number(io, "importance", cloth.importance, {0.0, 1e30});
+  number(io, "importance", cloth.importance, {0.0, double{kMostImportance}});
   number(io, "detail", cloth.given_up, {0.0, kMostGivenUp});
   const bool folded = number(io, "detail", cloth.fold_share, kShare) > 0.0f;
   number(io, "detail", cloth.substep_share, kShare);
@@ -215,7 +215,7 @@ void visit(W& world, Io& io, std::uint64_t bytes) {
   number(io, "time", world.time, kTime);
   number(io, "pace", world.cost, kPositive);
   number(io, "pace", world.work, kPositive);
-  number(io, "scarcity", world.scarcity, {0.0, 1e30 * static_cast<double>(kLoss.back())});
+  number(io, "scarcity", world.scarcity, {0.0, double{kLoss.back() * kMostImportance}});
   number(io, "turn", world.turn, {0.0, kTicksParted.back() - 1.0});
   visit_bodies(world, io);
   for (auto& cloth : world.clothes) visit_cloth(world, io, cloth);

@@ -8,13 +8,16 @@
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMostCapsulesPerCloth = 1024;   // near one cloth at a time
-constexpr std::size_t kContactsPerParticle = 16;      // room for rows; what does not fit is counted
-constexpr std::size_t kSelfContactsPerParticle = 32;  // room for rows of cloth that touches cloth
-constexpr std::size_t kMeshPairsPerTriangle = 64;     // room for pairs of edges with a body of few triangles
-constexpr std::size_t kMostMeshPairs = 262144;        // the same of many
-constexpr std::size_t kMeshPairsPerParticle = 64;     // room besides
-constexpr std::size_t kMostClearancePlanes = 4096;    // settled together; more are settled in turn
+constexpr std::size_t kMostCapsulesPerCloth = 1024;     // near one cloth at a time
+constexpr std::uint32_t kContactsPerParticle = 16;      // room for rows; what does not fit is counted
+constexpr std::uint32_t kSelfContactsPerParticle = 32;  // room for rows of cloth that touches cloth
+constexpr std::size_t kMeshPairsPerTriangle = 64;       // room for pairs of edges with a body of few triangles
+constexpr std::size_t kMostMeshPairs = 262144;          // the same of many
+constexpr std::size_t kMeshPairsPerParticle = 64;       // room besides
+constexpr std::uint32_t kMostClearancePlanes = 4096;    // settled together; more are settled in turn
+
+/// Itself, or one of a lower layer.
+bool touches_cloth(const ClothRecord& cloth) { return cloth.settings.self_distance > 0.0f || cloth.settings.layer > 1; }
 
 void make_surface_room(Worker& worker, const ClothRecord& cloth) {
   const Garment& g = cloth.garment();
@@ -33,12 +36,9 @@ void make_surface_room(Worker& worker, const ClothRecord& cloth) {
 
 #ifdef PLEAT_WITH_COLLISION
 void make_cloth_contact_room(Worker& worker, const ClothRecord& cloth) {
-  const bool touches_itself = cloth.settings.self_distance > 0.0f;
-  if (!touches_itself && cloth.settings.layer == 0) return;
+  if (!touches_cloth(cloth) && cloth.settings.layer == 0) return;
   const Garment& g = cloth.garment();
-  if (touches_itself || cloth.settings.layer > 1) {
-    at_least(worker.contacts, kSelfContactsPerParticle * std::size_t{g.particle_count});
-  }
+  if (touches_cloth(cloth)) at_least(worker.contacts, contact_room(cloth));
   NearScratch& scratch = worker.near_scratch;
   at_least(scratch.pairs, SelfColumns::kPairsPerParticle * std::size_t{g.particle_count});
   scratch.make_room(g.particle_count, g.edge_count);
@@ -49,7 +49,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   const Garment& g = cloth.garment();
   at_least(worker.capsule_poses, capsule_room(world.capsules.size()));
   at_least(worker.capsule_blocks, capsule_blocks(worker.capsule_poses.size()));
-  at_least(worker.contacts, kContactsPerParticle * std::size_t{g.particle_count});
+  at_least(worker.contacts, contact_room(cloth));
   worker.capsule_candidates.make_room(g, worker.capsule_poses.size());
   if (!world.meshes.empty()) {
     std::size_t most_vertices = 0, most_triangles = 0;
@@ -63,7 +63,7 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
   }
   if (const TessellationPattern* pattern = cloth.pattern(); pattern != nullptr) {
     if (!world.meshes.empty()) at_least(worker.footprint, pattern->vertex_count);
-    at_least(worker.clearance_planes, std::min<std::size_t>(pattern->triangle_count, kMostClearancePlanes));
+    at_least(worker.clearance_planes, clearance_room(cloth));
     for (const MeshRecord& body : world.meshes) worker.near_triangles.make_room(body.mesh.triangles.size() / 3);
   }
 }
@@ -73,6 +73,14 @@ void make_body_contact_room(Worker& worker, const World& world, const ClothRecor
 
 std::size_t capsule_room(std::size_t capsules) {
   return capsules == 0 ? 0 : std::min(std::bit_ceil(capsules), kMostCapsulesPerCloth);
+}
+
+std::uint32_t contact_room(const ClothRecord& cloth) {
+  return (touches_cloth(cloth) ? kSelfContactsPerParticle : kContactsPerParticle) * cloth.garment().particle_count;
+}
+
+std::uint32_t clearance_room(const ClothRecord& cloth) {
+  return std::min(cloth.pattern()->triangle_count, kMostClearancePlanes);
 }
 
 void make_room(Worker& worker, [[maybe_unused]] const World& world, const ClothRecord& cloth) {

@@ -66,6 +66,10 @@ std::size_t capsule_room(std::size_t capsules);
 
 struct World;
 struct ClothRecord;
+/// For how many rows of contact, and for how many planes that its surface has yet to satisfy, the cloth has room. That
+/// is its own, whatever other cloths have made a worker's columns hold: what finds none is lost, or settled in turn.
+std::uint32_t contact_room(const ClothRecord& cloth);
+std::uint32_t clearance_room(const ClothRecord& cloth);
 /// For this cloth too, where the scene is as it is now. Throws std::bad_alloc.
 void make_room(Worker& worker, const World& world, const ClothRecord& cloth);
 

@@ -233,7 +233,9 @@ void remove_cloth(World& world, std::uint32_t position) {
 
 void forget_motion(World& world, ClothRecord& cloth) {
   const std::size_t particles = cloth.garment().particle_count;
-  if (world.held.size() != 0) clear(world.held.view().from(cloth.particle_begin), particles);
+  for (Vec3Column* column : {&world.held, &world.bending}) {
+    if (column->size() != 0) clear(column->view().from(cloth.particle_begin), particles);
+  }
   cloth.bending_left = 0.0f;
   cloth.self_pair_count = cloth.layer_pair_count = kNone;
 }

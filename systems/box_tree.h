@@ -47,12 +47,12 @@ class BoxTree {
   Box bounds() const;
 
   /// visit(leaf, items) for those whose boxes and all around them are near, in the order given at the start: a bit for
-  /// each of the leaf's items. near(boxes): a mask.
+  /// each of the leaf's items. near(boxes): a mask, which does not count where a node is not full.
   template <class Near, class Visit>
   PLEAT_KERNEL void for_each(const Near& near, const Visit& visit) const {
     std::uint32_t node[kMostLevels], rest[kMostLevels];
     const auto enter = [&](std::size_t level, std::uint32_t n) PLEAT_KERNEL_LAMBDA {
-      node[level] = n, rest[level] = bits(near(nodes_[begin_[level] + n]));
+      node[level] = n, rest[level] = bits(near(nodes_[begin_[level] + n])) & filled(level, n);
     };
     std::size_t level = levels_ - 1;
     for (enter(level, 0); level < levels_;) {
@@ -73,6 +73,11 @@ class BoxTree {
 
  private:
   void fit_around_leaves();
+  /// A bit for each of a node's eight that there is.
+  PLEAT_KERNEL std::uint32_t filled(std::size_t level, std::uint32_t n) const {
+    const std::size_t below = level == 0 ? count_ : begin_[level] - begin_[level - 1], rest = below - kLanes * n;
+    return rest < kLanes ? (1u << rest) - 1 : 0xffu;
+  }
 
   static constexpr std::size_t kMostLevels = 8;
   Column<std::uint32_t> order_;                                    // of the items in the leaves

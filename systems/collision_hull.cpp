@@ -2,11 +2,15 @@
 
 #include <LinearMath/btConvexHullComputer.h>
 
+#include <array>
+
 #include "systems/box.h"
 
 namespace pleat {
+namespace {
 
-MeshCollider build_hull(std::span<const Vec3> points, std::pmr::memory_resource* memory) {
+/// Without triangles where six times its volume is no more than `flat` times the cube of its largest extent.
+MeshCollider hull_of(std::span<const Vec3> points, float flat, std::pmr::memory_resource* memory) {
   MeshCollider hull(memory);
   Box box;
   for (const Vec3& p : points) box.include(p);
@@ -35,9 +39,23 @@ MeshCollider build_hull(std::span<const Vec3> points, std::pmr::memory_resource*
       volume += dot(x[first] - points[0], cross(x[b] - points[0], x[c] - points[0]));
     }
   }
-  if (!(volume > 1e-6f * size * size * size)) hull.triangles.resize(0);
+  if (!(volume > flat * size * size * size)) hull.triangles.resize(0);
   hull.depth = 0.5f * std::min({extent.x, extent.y, extent.z});
   return hull;
+}
+
+}  // namespace
+
+MeshCollider build_box(const Vec3& half, std::pmr::memory_resource* memory) {
+  std::array<Vec3, 8> corners;
+  for (unsigned k = 0; k < 8; ++k) {
+    corners[k] = {k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z};
+  }
+  return hull_of(corners, 0.0f, memory);
+}
+
+MeshCollider build_hull(std::span<const Vec3> points, std::pmr::memory_resource* memory) {
+  return hull_of(points, 1e-6f, memory);
 }
 
 void place_rigid(MeshCollider& body, const RigidPose& pose) {

@@ -12,6 +12,9 @@ namespace pleat {
 /// A particle is brought back from any depth. Throws std::bad_alloc.
 MeshCollider build_hull(std::span<const Vec3> points, std::pmr::memory_resource* memory);
 
+/// The same of a box with these half extents, m, > 0, however thin it is.
+MeshCollider build_box(const Vec3& half, std::pmr::memory_resource* memory);
+
 /// Puts a rigid body there at rest.
 void place_rigid(MeshCollider& body, const RigidPose& pose);
 /// Where it shall be at the end of the next tick.

@@ -96,6 +96,16 @@ TEST_F(Collider, OneBadFieldIsRefusedByName) {
   expect_refused(PLEAT_ERROR_ARGUMENT, "collider", [&] { return api().collider_create(world, &def, nullptr); });
 }
 
+TEST_F(Collider, ABoxWithinTheLimitsIsMade) {
+  pleat_collider_def box = shape(PLEAT_COLLIDER_BOX);
+  for (const float thin : {1e-4f, 1e-3f}) {
+    box.half_extents[0] = box.half_extents[2] = 1e4f, box.half_extents[1] = thin;
+    create(box);
+    box.half_extents[0] = thin;
+    create(box);
+  }
+}
+
 TEST_F(Collider, OlderSmallerStructWorks) {
   pleat_collider_def def = capsule();
   def.size = offsetof(pleat_collider_def, positions);

@@ -71,6 +71,13 @@ TEST(Budget, TheLeastImportantGiveUpFirst) {
   EXPECT_EQ(w.scene.info(w.cloths[2]).substeps, 12u);
 }
 
+TEST(Budget, TheMostImportantThatGiveAllUpAreAStateThatLoads) {
+  Wardrobe w;
+  for (const pleat_cloth cloth : w.cloths) must(call::cloth_set_importance(w.scene, cloth, 1e30f));
+  w.give_up();
+  EXPECT_EQ(w.scene.load(w.scene.saved()), pleat_result{PLEAT_OK});
+}
+
 TEST(Budget, WhereTicksDifferTheirMeanCounts) {
   Wardrobe w;
   w.tick(62);

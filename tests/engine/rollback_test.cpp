@@ -101,6 +101,16 @@ TEST(Rollback, WhereNothingHelpsTheClothStaysWithItsPins) {
             1);
 }
 
+TEST(Rollback, WhatIsLeftBehindIsAStateThatLoads) {
+  Scene scene;
+  scene.cloth(scene.sheet(8));
+  scene.step(2);
+  scene.inside().particles.velocity.y[20] = std::numeric_limits<float>::infinity();
+  scene.step();
+  ASSERT_EQ(scene.stats().fallbacks, 1u);
+  EXPECT_EQ(scene.load(scene.saved()), pleat_result{PLEAT_OK});
+}
+
 #if defined(PLEAT_WITH_COLLISION) && defined(PLEAT_WITH_SMOOTHING)
 TEST(Rollback, WhereNothingHelpsTheClothIsDrawnBesideBodiesAsTheyAreAtTheEnd) {
   Scene scene;

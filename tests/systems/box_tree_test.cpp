@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory_resource>
 #include <random>
 #include <vector>
@@ -83,7 +84,9 @@ TEST(BoxTree, PropertyFindsWhatOverlapsOnceAndInOrderAlsoAfterMoves) {
       hits += found.size();
     }
     EXPECT_GT(hits, count) << count;
-    EXPECT_EQ(filed.found({{-9, -9, -9}, {9, 9, 9}}), filed.order);
+    for (const float far : {9.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
+      EXPECT_EQ(filed.found({{-far, -far, -far}, {far, far, far}}), filed.order) << far;
+    }
   }
 }
 

@@ -150,6 +150,30 @@ TEST(CollisionHull, FlatPointsHaveNoTriangles) {
   EXPECT_EQ(build_hull(std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, memory()).triangles.size(), 0u);
 }
 
+TEST(CollisionHull, ABoxMayBeAsThinAsItLikes) {
+  for (const Vec3& half : {Vec3{1e3f, 1e-4f, 1e3f}, {1e4f, 1e-3f, 1e4f}, {1e-4f, 1e4f, 1e4f}, {1e4f, 1e-4f, 1e-4f}}) {
+    MeshCollider box = build_box(half, memory());
+    ASSERT_EQ(box.local.size(), 8u);
+    ASSERT_EQ(box.triangles.size(), 36u);
+    const ConstVec3View x = box.local.view();
+    float area = 0.0f;  // twice, m2
+    for (std::size_t t = 0; t < 36; t += 3) {
+      const Vec3 a = x[box.triangles[t]], b = x[box.triangles[t + 1]], c = x[box.triangles[t + 2]];
+      const Vec3 normal = cross(b - a, c - a);
+      EXPECT_GT(dot(normal, a), 0.0f);  // outward
+      area += length(normal);
+    }
+    EXPECT_NEAR(area / (16.0f * (half.x * half.y + half.y * half.z + half.z * half.x)), 1.0f, 1e-5f);
+    if (half.y > 1.0f) continue;  // so high up a thickness is a few roundings
+    place_rigid(box, {});
+    const Vec3 at{0.3f * half.x, half.y + 0.5f * kThickness, 0.1f * half.z};
+    ContactCloth cloth({at, at + Vec3{0.1f, 0, 0}, at + Vec3{0, 0, 0.1f}}, {{0, 2, 1}});
+    detect(cloth, box);
+    ASSERT_GT(cloth.row_count, 0u);
+    EXPECT_GT(cloth.rows[0].normal.y, 0.999f) << half.x;
+  }
+}
+
 TEST(CollisionHull, AParticleIsBroughtOutOfAnyDepth) {
   MeshCollider box = build_hull(box_corners(), memory());
   place_rigid(box, {{1, 2, 3}, {0, 0, 0.6f, 0.8f}});

@@ -99,5 +99,45 @@ TEST(SurfaceModes, CurvedTrianglesFollowASaddle) {
   EXPECT_LT(error(kSaddle, SurfaceMode::kPhong, 0.4f), 0.6 * flat);
 }
 
+void expect_finite(const Mesh& mesh) {
+  for (std::uint32_t mode = 0; mode <= static_cast<std::uint32_t>(SurfaceMode::kArcPn); ++mode) {
+    Surface s(mesh, 3);
+    s.mode = static_cast<SurfaceMode>(mode);
+    s.run();
+    std::uint32_t not_finite = 0;
+    for (std::uint32_t i = 0; i < s.garment.normal_count; ++i) not_finite += !is_finite(s.normal.view()[i]);
+    for (std::uint32_t e = 0; e < s.garment.edge_count; ++e) {
+      not_finite += !is_finite(s.fold.view()[e]) || !std::isfinite(s.fold_height[e]) ||
+                    !std::isfinite(s.fold_side[e]) || !std::isfinite(s.garment.edge_rest_curve_length[e]);
+    }
+    for (std::uint32_t v = 0; v < s.pattern.vertex_count; ++v) not_finite += !is_finite(s.drawn.view()[v]);
+    for (std::uint32_t v = 0; v < s.pattern.shaded_count(); ++v) not_finite += !is_finite(s.drawn_normal.view()[v]);
+    EXPECT_EQ(not_finite, 0u) << mode;
+  }
+}
+
+TEST(SurfaceModes, ATinyTriangleIsDrawnFinite) {
+  // The sides' squares multiplied are less than the least float.
+  for (const float size : {1e-5f, 1e-6f, 2e-7f, 1e-7f}) {
+    Mesh mesh = sheet(5);
+    const Vec3 corner = mesh.positions.back();
+    for (Vec3& x : mesh.positions) x -= corner;
+    const auto at = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back({size, 0, size});
+    mesh.positions.push_back({0, 0, size});
+    mesh.triangles.push_back({at - 1, at, at + 1});
+    for (Vec3& x : mesh.positions) x = {0.8f * x.x - 0.6f * x.z, 0.36f * x.x + 0.48f * x.z, 0.48f * x.x + 0.64f * x.z};
+    expect_finite(mesh);
+  }
+}
+
+TEST(SurfaceModes, ATinyGarmentIsDrawnFinite) {
+  for (const float size : {1e-6f, 1e-7f, 1e-8f, 1e-9f, 1e-10f}) {
+    Mesh mesh = sheet(5);
+    for (Vec3& x : mesh.positions) x = x * size;
+    expect_finite(mesh);
+  }
+}
+
 }  // namespace
 }  // namespace pleat
