@@ -24,6 +24,9 @@ ClothWork work_of(const ClothRecord& cloth, std::uint32_t substeps) {
           .drawn = pattern != nullptr ? pattern->vertex_count : 0};
 }
 
+/// What sleeps costs nothing, and keeps what it has: given back, and taken when it wakes, detail would come and go.
+bool takes_part(const ClothRecord& cloth) { return cloth.visible && cloth.substeps_taken != 0; }
+
 OfSteps work_by_steps(const ClothRecord& cloth) {
   return work_of(cloth, cloth.substeps_wanted).by_steps(has_substeps_to_give(cloth), has_ticks_to_give(cloth));
 }
@@ -59,9 +62,9 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
   float unseen = 0.0f;  // work
   for (const ClothRecord& cloth : world.clothes) {
     const OfSteps work = work_by_steps(cloth);
-    if (cloth.visible) {
+    if (takes_part(cloth)) {
       world.detail[count++] = {cloth.importance, work, cloth.given_up};
-    } else {
+    } else if (!cloth.visible) {
       unseen += work[kMostGivenUp];
     }
   }
@@ -75,7 +78,13 @@ void keep_budget(World& world, float budget_ms, float cost_ms) {
   world.scarcity = run(DetailChoice{
       .candidates = {world.detail.data(), count}, .budget = left, .pace = pace, .scarcity = world.scarcity});
   count = 0;
-  for (ClothRecord& cloth : world.clothes) give_up(world, cloth, cloth.visible ? world.detail[count++].given_up : 0);
+  for (ClothRecord& cloth : world.clothes) {
+    if (takes_part(cloth)) {
+      give_up(world, cloth, world.detail[count++].given_up);
+    } else if (!cloth.visible) {
+      give_up(world, cloth, 0);
+    }
+  }
 }
 
 void fade_substeps(ClothRecord& cloth, float dt) {

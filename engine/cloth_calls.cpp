@@ -174,7 +174,7 @@ pleat_result cloth_set(pleat_world* handle, pleat_cloth cloth, const pleat_cloth
     const pleat_cloth_settings wanted = read_def("settings", settings, record.settings);
     need_settings(wanted);
     const pleat_cloth_settings old = record.settings;
-    if (same_bytes(wanted, old)) return;
+    if (same_bytes(wanted, old)) return draw(world, record);
     set_cloth(world, record, wanted);
     try {
       refresh(world, record);

@@ -218,6 +218,10 @@ void tick_cloth(World& world, Worker& worker, ClothRecord& cloth, float dt) {
     ++worker.stats.sleeping;
     cloth.substeps_taken = 0;
     cloth.contacts = {};
+    if (shows_fading(cloth)) {
+      fade_folds(world, cloth, dt);
+      run_phase(t, Phase::kFrameEnd);
+    }
     return;
   }
   if (waits(t)) {

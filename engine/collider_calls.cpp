@@ -300,9 +300,8 @@ pleat_result collider_set(pleat_world* handle, [[maybe_unused]] pleat_collider c
     const ColliderRecord& record = need_collider(world, collider);
     const pleat_collider_settings old = settings_of(world, record), wanted = read_def("settings", settings, old);
     need_settings(wanted);
-    if (same_bytes(wanted, old)) return;
     set_collider(world, record, wanted);
-    wake_all(world);
+    if (!same_bytes(settings_of(world, record), old)) wake_all(world);
 #endif
   });
 }

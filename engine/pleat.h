@@ -518,9 +518,9 @@ typedef struct pleat_api {
   pleat_result (*cloth_contact_report)(const pleat_world* world, pleat_cloth cloth, pleat_contact_report* report);
   /* The character jumps: when the next tick begins the cloth is carried rigidly, turned by rotation (x, y, z, w; null:
    * not) about `from`, which is brought to `to`, m. It keeps its shape and turns its velocities. Pins that are not
-   * moved for that tick come along, and so do the previous poses of bodies that this brings nearer to their next ones:
-   * nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed. Refused where
-   * that takes the cloth beyond 1e6 m on an axis. */
+   * told where to be at that tick's end come along, and so do the previous poses of bodies that this brings nearer to
+   * their next ones: nothing sweeps through. Where the host does not say it, most jumps are found: see teleport_speed.
+   * Refused where that takes the cloth, as it is now, beyond 1e6 m on an axis. */
   pleat_result (*cloth_teleport)(pleat_world* world, pleat_cloth cloth, const float from[3], const float to[3],
                                  const float rotation[4]);
   /* The corners of the smallest box around the drawn vertices, m: for culling, and to read 16-bit positions. Around the
@@ -537,8 +537,8 @@ typedef struct pleat_api {
    * layer, is less than two seconds old, fades, or where bodies would meanwhile go against it by an eighth, a quarter,
    * half of their radius, or by more than contact takes back in a tick. What is told of its last tick is of the last
    * that it took. Bodies do not pass through, and cloths whose `substeps` are set keep all but folds. The same numbers
-   * give the same bits. budget_ms = 0: all have full detail again. The level of the drawn triangles is the host's, see
-   * cloth_suggest_level: it owns the indices. */
+   * give the same bits. What sleeps keeps what it has. budget_ms = 0: all have full detail again. The level of the
+   * drawn triangles is the host's, see cloth_suggest_level: it owns the indices. */
   pleat_result (*world_keep_budget)(pleat_world* world, float budget_ms, float cost_ms);
   /* For the budget: size on screen, say, of any unit, >= 0; 1 until it is set. May be called every frame. */
   pleat_result (*cloth_set_importance)(pleat_world* world, pleat_cloth cloth, float importance);

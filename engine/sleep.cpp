@@ -1,6 +1,5 @@
 #include "engine/sleep.h"
 
-#include "engine/budget.h"
 #include "engine/schedule_row.h"
 #include "systems/disturbance.h"
 
@@ -24,19 +23,20 @@ bool is_carried([[maybe_unused]] const ClothTick& t) {
   return false;
 }
 
-bool is_disturbed(const ClothTick& t) {
-  if (is_carried(t)) return true;
+Disturbance disturbance(const ClothTick& t) {
   const World& w = t.world;
-  return run(Disturbance{.garment = &t.garment,
-                         .position = t.position,
-                         .origin = t.cloth.origin,
-                         .pin_previous = t.pin_previous,
-                         .pin_next = t.pin_next,
-                         .capsules = &w.capsules,
-                         .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
-                         .planes = {w.planes.data(), w.planes.size()},
-                         .reach = t.settings.thickness + kNear});
+  return {.garment = &t.garment,
+          .position = t.position,
+          .origin = t.cloth.origin,
+          .pin_previous = t.pin_previous,
+          .pin_next = t.pin_next,
+          .capsules = &w.capsules,
+          .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
+          .planes = {w.planes.data(), w.planes.size()},
+          .reach = t.settings.thickness + kNear};
 }
+
+bool is_disturbed(const ClothTick& t) { return is_carried(t) || run(disturbance(t)); }
 
 bool in_gusts(const ClothTick& t) {
   const bool in_air = t.settings.drag_coefficient > 0.0f || t.settings.lift_coefficient > 0.0f;
@@ -54,11 +54,14 @@ void wake_all(World& world) {
 void wake_around_bodies(World& world, Worker& worker) {
   if (!world.has_colliders()) return;
   for (ClothRecord& cloth : world.clothes) {
-    if (cloth.calm > 0.0f && is_disturbed(ClothTick(world, worker, cloth))) wake(cloth);
+    if (cloth.calm == 0.0f) continue;
+    Disturbance jumps = disturbance(ClothTick(world, worker, cloth));
+    jumps.on_the_way = false;
+    if (run(jumps)) wake(cloth);
   }
 }
 
-bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !shows_fading(t.cloth) && !is_disturbed(t); }
+bool sleeps_on(const ClothTick& t) { return t.cloth.calm >= kFallAsleep && !is_disturbed(t); }
 
 void stir(ClothTick& t) {
   if (t.settings.sleep_speed > 0.0f && is_disturbed(t)) wake(t.cloth);

@@ -23,20 +23,24 @@ bool Disturbance::validate() const {
 bool Disturbance::run() const {
   if (garment->pins.size() != 0 && moves(pin_previous, pin_next, garment->pins.size())) return true;
   const Box cloth = box_of(position, garment->particle_count).grown(reach).moved(origin);
+  const auto passes = [&](const Box& from, const Box& to, float around) {
+    if (on_the_way) return from.with(to).grown(around).overlaps(cloth);
+    return from.grown(around).overlaps(cloth) || to.grown(around).overlaps(cloth);
+  };
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::size_t i = 0; i < capsules->size(); ++i) {
     if (capsules->enabled[i] == 0 || (a0[i] == a1[i] && b0[i] == b1[i])) continue;
-    Box swept;
-    for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
+    Box from, to;
+    from.include(a0[i]), from.include(b0[i]), to.include(a1[i]), to.include(b1[i]);
     const float radius = capsules->radius[i] + std::max(capsules->taper[i], 0.0f) + capsules->thickness[i];
-    if (swept.grown(radius).overlaps(cloth)) return true;
+    if (passes(from, to, radius)) return true;
   }
   for (const MeshCollider* mesh : meshes) {
     const ConstVec3View from = mesh->previous.view(), to = mesh->next.view();
     const std::size_t count = mesh->next.size();
     if (!mesh->enabled || !moves(from, to, count)) continue;
-    if (box_of(from, count).with(box_of(to, count)).grown(mesh->bow + mesh->thickness).overlaps(cloth)) return true;
+    if (passes(box_of(from, count), box_of(to, count), mesh->bow + mesh->thickness)) return true;
   }
   return std::any_of(planes.begin(), planes.end(),
                      [](const PlaneCollider& plane) { return plane.enabled && !(plane.previous == plane.next); });

@@ -98,11 +98,17 @@ TEST(Sleep, FoldsComeBackWhileItSleeps) {
   for (int i = 0; i < 1800 && !scene.asleep(); ++i) scene.step();
   ASSERT_TRUE(scene.asleep());
   ASSERT_EQ(scene.inside().clothes[0].fold_share, 0.0f);
+  for (int i = 0; i < 10; ++i) must(call::world_keep_budget(scene, 1000.0f, 0.001f)), scene.step();
+  EXPECT_GT(scene.inside().clothes[0].given_up, 0u) << "it would be taken as it wakes";
+  const std::vector<float> particles = scene.particles(scene.id), flat = scene.vertices(scene.id);
   must(call::world_keep_budget(scene, 0.0f, 0.0f));
-  scene.step(30);
+  for (int tick = 0; tick < 30; ++tick) {
+    scene.step();
+    EXPECT_TRUE(scene.asleep()) << tick;
+  }
   EXPECT_EQ(scene.inside().clothes[0].fold_share, 1.0f);
-  for (int i = 0; i < 600 && !scene.asleep(); ++i) scene.step();
-  EXPECT_TRUE(scene.asleep());
+  EXPECT_TRUE(same_bits(scene.particles(scene.id), particles));
+  EXPECT_FALSE(same_bits(scene.vertices(scene.id), flat));
 }
 #endif
 
@@ -114,6 +120,8 @@ TEST(Sleep, ABodyThatIsRefusedOrSetAsItIsWakesNobody) {
   pleat_collider_settings same{};
   same.size = sizeof same;
   must(call::collider_get(scene, ball, &same));
+  must(call::collider_set(scene, ball, &same));
+  same.radius_b = 0.0f;  // as it was made: a ball has none
   must(call::collider_set(scene, ball, &same));
   must(call::collider_set_enabled(scene, ball, 1));
   pleat_collider_def flat;
@@ -153,6 +161,19 @@ TEST(Sleep, ABodyThatJumpsToItOrAwayWakesIt) {
       EXPECT_FALSE(scene.asleep()) << arrives << declared;
     }
   }
+}
+
+TEST(Sleep, ABodyThatJumpsPastItDoesNotWakeIt) {
+  Asleep scene(0.005f, false);
+  const pleat_cloth other = scene.cloth(scene.sheet(3));
+  const float from[3] = {-20, 0, 0}, to[3] = {20, 0, 0};
+  const pleat_collider body = scene.sphere(from[0], from[1], from[2], 0.1f);
+  for (int i = 0; i < 1800 && !scene.asleep(); ++i) scene.step();
+  must(call::cloth_teleport(scene, other, from, to, nullptr));
+  must(call::collider_move_capsule(scene, body, to, to));
+  scene.step();
+  EXPECT_EQ(scene.stats().teleports, 1u);
+  EXPECT_TRUE(scene.asleep());
 }
 
 TEST(Sleep, OnlyBodiesThatComeNearWakeIt) {

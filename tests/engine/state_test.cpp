@@ -235,7 +235,7 @@ TEST(State, WhatIsOfNoConsequenceIsNotInIt) {
 }
 
 TEST(State, PinsThatAreToldToStayAreSaved) {
-  const float here[3] = {0, 0, 0}, there[3] = {1, 0, 0}, pins[6] = {-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
+  const float here[3] = {0, 0, 0}, there[3] = {0.5f, 0, 0}, pins[6] = {-0.5f, 0, -0.5f, 0.5f, 0, -0.5f};
   Scene scene;
   const pleat_cloth cloth = scene.cloth(scene.sheet(4));
   must(call::cloth_move_pins(scene, cloth, pins, 0, 2));
