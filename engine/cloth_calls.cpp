@@ -286,8 +286,8 @@ pleat_result cloth_write_particles(pleat_world* handle, pleat_cloth cloth, const
 pleat_result cloth_teleport(pleat_world* handle, pleat_cloth cloth, const float from[3], const float to[3],
                             const float rotation[4]) {
   return guarded(as_world(handle), "cloth_teleport", [&] {
-    const World& world = need_world(handle);
-    ClothRecord& record = need_cloth(need_world(handle), cloth);
+    World& world = need_world(handle);
+    ClothRecord& record = need_cloth(world, cloth);
     const Vec3 begin = need_place("from", from), end = need_place("to", to);
     RigidMotion jump{begin, end, rotation != nullptr ? need_rotation("rotation", rotation) : Quaternion{}};
     if (record.declared_jump) jump = record.declared_jump->then(jump).about(record.origin);
