@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "engine/border.h"
 #include "engine/calls.h"
 #include "engine/schedule.h"
@@ -137,16 +139,18 @@ pleat_collider_settings settings_of(const World& world, const ColliderRecord& re
   return {size, world.planes[i].friction, world.planes[i].thickness, 0.0f, 0.0f};
 }
 
-bool is_enabled(const World& world, const ColliderRecord& record) {
+/// What it was.
+bool set_enabled(World& world, const ColliderRecord& record, bool enabled) {
   switch (record.kind) {
     case ColliderKind::kCapsule:
-      return world.capsules.enabled[record.position] != 0;
+      world.capsules_filed = false;
+      return std::exchange(world.capsules.enabled[record.position], enabled ? 1 : 0) != 0;
     case ColliderKind::kMesh:
-      return world.meshes[record.position].mesh.enabled;
+      return std::exchange(world.meshes[record.position].mesh.enabled, enabled);
     case ColliderKind::kPlane:
       break;
   }
-  return world.planes[record.position].enabled;
+  return std::exchange(world.planes[record.position].enabled, enabled);
 }
 
 const ColliderRecord& need_collider(const World& world, pleat_collider id) {
@@ -204,21 +208,7 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    const ColliderRecord& record = need_collider(world, collider);
-    if (is_enabled(world, record) == (enabled != 0)) return;
-    switch (record.kind) {
-      case ColliderKind::kCapsule:
-        world.capsules.enabled[record.position] = enabled != 0 ? 1 : 0;
-        world.capsules_filed = false;
-        break;
-      case ColliderKind::kMesh:
-        world.meshes[record.position].mesh.enabled = enabled != 0;
-        break;
-      case ColliderKind::kPlane:
-        world.planes[record.position].enabled = enabled != 0;
-        break;
-    }
-    wake_all(world);
+    if (set_enabled(world, need_collider(world, collider), enabled != 0) != (enabled != 0)) wake_all(world);
 #endif
   });
 }

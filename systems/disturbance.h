@@ -8,9 +8,10 @@
 
 namespace pleat {
 
-/// Says whether a pin moves in this tick, or a body that moves comes within `reach` of the cloth on its way or, where
-/// it jumps, as it leaves or arrives. Reads:  position (P) m; pin_previous, pin_next (pins) m; bodies Cost:   O(P +
-/// capsules), and O(vertices) of each mesh that may have moved; no allocation. Errors: none.
+/// Says whether a pin moves in this tick, or a body that moves comes within `reach` of the cloth: on its way or, where
+/// it jumps, as it leaves or arrives.
+/// Reads:  position (P) m; pin_previous, pin_next (pins) m; bodies
+/// Cost:   O(P + capsules), and O(vertices) of each mesh that may have moved; no allocation. Errors: none.
 struct Disturbance {
   const Garment* garment = nullptr;
   ConstVec3View position;

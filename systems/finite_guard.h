@@ -9,8 +9,9 @@
 namespace pleat {
 
 /// A particle whose position or velocity is not finite, or beyond kFarthest in the world or kFastest on an axis
-/// (components/limits.h), goes back to where the substep began and stands still there. Reads:  previous (P) m; the
-/// others' padding.  Writes: position m, velocity m/s (P); stats.nonfinite_restored. Cost:   O(P).  Errors: none.
+/// (components/limits.h), goes back to where the substep began and stands still there.
+/// Reads:  previous (P) m; the others' padding.  Writes: position m, velocity m/s (P); stats.nonfinite_restored.
+/// Cost:   O(P).  Errors: none.
 struct FiniteGuard {
   std::size_t particle_count = 0;
   ConstVec3View previous;

@@ -13,10 +13,10 @@ namespace pleat {
 /// mean velocity u of the cloth, so that a body that carries its cloth along asks for nothing:
 ///   n = (max |x1 - x0 - u dt| + max |v_i - u| dt) / (reach (r + thickness))       or thickness + kLeastMargin
 /// and for a cloth that is carried rigidly from its motion M, max |x1 - M(x0)|, over what of that contact takes back in
-/// a tick, kRecoverySpeed dt, and of a mesh's margin `reach`, at most. Of a capsule the part that comes near. Reads:
-/// position (P) m; velocity (P) m/s; capsules and meshes between their poses of this tick; bodies as of it Cost:   O(P
-/// + capsules near the cloth + vertices of meshes), no allocation. Errors: none; motion beyond all bounds asks for
-/// kMost.
+/// a tick, kRecoverySpeed dt, and of a mesh's margin `reach`, at most. Of a capsule the part that comes near.
+/// Reads:  position (P) m; velocity (P) m/s; capsules and meshes between their poses of this tick; bodies as of it
+/// Cost:   O(P + capsules near the cloth + vertices of meshes), no allocation. Errors: none; motion beyond all bounds
+/// asks for kMost.
 struct SubstepBound {
   static constexpr float kMost = 1e6f;
 
