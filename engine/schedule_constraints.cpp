@@ -313,7 +313,11 @@ constexpr Row kRows[] = {
      }},
     // Rows of bodies that pinch the cloth push against each other in every sweep; friction takes the sum for pressure
     // and undoes what the strain limit has pulled. So the limit comes once more, and contact still has the last word.
-    {Phase::kFriction, "stretch_after_friction", with_stretch_limit_and_colliders, limit_stretch},
+    // Cloth that no body is near has no such pass: it moves as it would in a world without bodies.
+    {Phase::kFriction, "stretch_after_friction", with_stretch_limit_and_colliders,
+     [](ClothTick& t) {
+       if (t.worker.contact_count != t.cloth_rows) limit_stretch(t);
+     }},
     // What the limit has pulled must not creep, nor a fold that hangs on it snap; what is stretched may slide.
     {Phase::kFriction, "contact_stick", with_contacts,
      [](ClothTick& t) {

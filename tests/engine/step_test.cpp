@@ -194,6 +194,17 @@ TEST(Step, SlowClothAtRestDoesNotWanderOff) {
   for (std::size_t i = 0; i < 3 * 256; ++i) EXPECT_NEAR(end[i], start[i], 2e-6f) << i;
 }
 
+#ifdef PLEAT_WITH_COLLISION
+TEST(Step, ABodyThatIsFarAwayChangesNoBit) {
+  Scene alone, with_body;
+  with_body.sphere(0, 0, 20, 1);
+  const pleat_cloth a = alone.cloth(alone.sheet(8)), b = with_body.cloth(with_body.sheet(8));
+  alone.step(60), with_body.step(60);
+  EXPECT_EQ(alone.particles(a), with_body.particles(b));
+  EXPECT_EQ(alone.vertices(a), with_body.vertices(b));
+}
+#endif
+
 TEST(Step, FreeClothFallsByTheDiscreteLaw) {
   Scene scene;
   pleat_cloth_settings s = Scene::default_settings();
