@@ -13,12 +13,16 @@ namespace pleat {
 /// What a shape is made of: spheres and tapered capsules are capsules, boxes and hulls are meshes.
 enum class ColliderKind : std::uint8_t { kCapsule, kMesh, kPlane };
 
+/// Bits of groups: a body is in some, a cloth collides with some.
+inline constexpr std::uint32_t kFirstGroup = 1, kAllGroups = 0xffffffff;
+
 /// Capsules, one element each: the convex hull of a ball about a and one about b. World space, m.
 struct CapsuleColumns {
   Vec3Column previous_a, previous_b, next_a, next_b;
   Column<float> radius, taper;  // of the ball about a, m; what the one about b has more, m
   Column<float> thickness;      // kept from it besides the cloth's, m
   Column<float> friction;
+  Column<std::uint32_t> groups;  // bits: see pleat_collider_def
   Column<std::uint8_t> enabled;
 
   explicit CapsuleColumns(std::pmr::memory_resource* m)
@@ -30,8 +34,11 @@ struct CapsuleColumns {
         taper(m),
         thickness(m),
         friction(m),
+        groups(m),
         enabled(m) {}
   std::size_t size() const { return enabled.size(); }
+  /// Whether cloth that collides with the groups of `wanted` meets capsule i.
+  bool meets(std::size_t i, std::uint32_t wanted) const { return enabled[i] != 0 && (groups[i] & wanted) != 0; }
 };
 
 /// All points below a plane that a rigid frame carries: local y <= 0.
@@ -39,7 +46,10 @@ struct PlaneCollider {
   RigidPose previous, next;
   float thickness = 0.0f;  // kept from it besides the cloth's, m
   float friction = 1.0f;
+  std::uint32_t groups = kFirstGroup;
   bool enabled = true;
+
+  bool meets(std::uint32_t wanted) const { return enabled && (groups & wanted) != 0; }
 };
 
 /// One triangle mesh with outward, counter-clockwise faces.
@@ -51,10 +61,12 @@ struct MeshCollider {
   float bow = 0.0f;                         // of a rigid body: how far its turning takes vertices off straight lines, m
   float depth = 0.03f;                      // below the surface from which a particle is still brought back, m
   float thickness = 0.0f, friction = 1.0f;  // kept from it besides the cloth's, m; multiplied by the cloth's
+  std::uint32_t groups = kFirstGroup;
   bool enabled = true;
 
   explicit MeshCollider(std::pmr::memory_resource* m) : previous(m), next(m), triangles(m), local(m) {}
   bool is_rigid() const { return local.size() != 0; }
+  bool meets(std::uint32_t wanted) const { return enabled && (groups & wanted) != 0; }
 };
 
 /// A capsule at one moment of a substep: where its core is and how far it moves until the substep ends.

@@ -67,7 +67,7 @@ struct MeshHits {
 
 /// What of a body tells how far around it is looked.
 struct MeshSought {
-  bool enabled = false;
+  bool met = false;
   float thickness = 0.0f, depth = 0.0f;  // m
 
   friend bool operator==(const MeshSought&, const MeshSought&) = default;

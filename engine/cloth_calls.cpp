@@ -43,7 +43,9 @@ const pleat_cloth_def& default_cloth() {
                   .layer = 0,
                   .buckling_strain = 0.01f,
                   .teleport_speed = 50.0f,
-                  .sleep_speed = 0.0f};
+                  .sleep_speed = 0.0f,
+                  .collides_with = kAllGroups,
+                  .reserved = 0};
     return d;
   }();
   return def;
@@ -77,6 +79,7 @@ void need_settings(const pleat_cloth_settings& s) {
   need_compiled(kHasCollision || s.layer == 0, "layer", "PLEAT_COLLISION");
   need_range("teleport_speed", s.teleport_speed, 0, 1e9);
   need_range("sleep_speed", s.sleep_speed, 0, 1);
+  need_range("reserved", s.reserved, 0, 0);
   need_compiled(kHasSmoothing || s.surface == PLEAT_SURFACE_FLAT, "a curved surface", "PLEAT_SMOOTHING");
 }
 

@@ -18,6 +18,7 @@ const pleat_collider_def& default_collider() {
     d.size = sizeof d;
     d.friction = 1.0f;
     d.rotation[3] = 1.0f;
+    d.groups = kFirstGroup;
     return d;
   }();
   return def;
@@ -98,11 +99,12 @@ Handle add_collider(World& world, const pleat_collider_def& def) {
   }
 }
 
-/// `body` is whatever of a world's colliders has these settings.
+/// `body` is a mesh or a plane.
 template <class Body>
-void set_margins(Body& body, const pleat_collider_settings& s) {
+void set_common(Body& body, const pleat_collider_settings& s) {
   body.friction = s.friction;
   body.thickness = s.thickness;
+  body.groups = s.groups;
 }
 
 void set_collider(World& world, const ColliderRecord& record, const pleat_collider_settings& s) {
@@ -111,15 +113,16 @@ void set_collider(World& world, const ColliderRecord& record, const pleat_collid
     case ColliderKind::kCapsule:
       world.capsules.friction[i] = s.friction;
       world.capsules.thickness[i] = s.thickness;
+      world.capsules.groups[i] = s.groups;
       world.capsules.radius[i] = s.radius;
       world.capsules.taper[i] = record.shape == PLEAT_COLLIDER_TAPERED_CAPSULE ? s.radius_b - s.radius : 0.0f;
       world.capsules_filed = false;
       break;
     case ColliderKind::kMesh:
-      set_margins(world.meshes[i].mesh, s);
+      set_common(world.meshes[i].mesh, s);
       break;
     case ColliderKind::kPlane:
-      set_margins(world.planes[i], s);
+      set_common(world.planes[i], s);
       break;
   }
 }
@@ -130,13 +133,16 @@ pleat_collider_settings settings_of(const World& world, const ColliderRecord& re
   constexpr auto size = static_cast<std::uint32_t>(sizeof(pleat_collider_settings));
   switch (record.kind) {
     case ColliderKind::kCapsule:
-      return {size, c.friction[i], c.thickness[i], c.radius[i], c.radius[i] + c.taper[i]};
-    case ColliderKind::kMesh:
-      return {size, world.meshes[i].mesh.friction, world.meshes[i].mesh.thickness, 0.0f, 0.0f};
+      return {size, c.friction[i], c.thickness[i], c.radius[i], c.radius[i] + c.taper[i], c.groups[i]};
+    case ColliderKind::kMesh: {
+      const MeshCollider& mesh = world.meshes[i].mesh;
+      return {size, mesh.friction, mesh.thickness, 0.0f, 0.0f, mesh.groups};
+    }
     case ColliderKind::kPlane:
       break;
   }
-  return {size, world.planes[i].friction, world.planes[i].thickness, 0.0f, 0.0f};
+  const PlaneCollider& plane = world.planes[i];
+  return {size, plane.friction, plane.thickness, 0.0f, 0.0f, plane.groups};
 }
 
 /// What it was.
@@ -172,7 +178,8 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
     need_range("shape", def.shape, 0, PLEAT_COLLIDER_HULL);
 #ifdef PLEAT_WITH_COLLISION
-    const pleat_collider_settings settings{sizeof settings, def.friction, def.thickness, def.radius, def.radius_b};
+    const pleat_collider_settings settings{sizeof settings, def.friction, def.thickness,
+                                           def.radius,      def.radius_b, def.groups};
     need_settings(settings);
     const std::size_t before = world.colliders.size();
     const BodyCensus census = body_census(world);

@@ -32,6 +32,7 @@ template <class Call>
 void for_each_column(CapsuleColumns& c, const Call& call) {
   for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) call(*column);
   for (Column<float>* column : {&c.radius, &c.taper, &c.thickness, &c.friction}) call(*column);
+  call(c.groups);
   call(c.enabled);  // last: it is what size() goes by
 }
 
@@ -46,6 +47,7 @@ Handle add_capsule(World& world, std::uint32_t shape, const Vec3& a, const Vec3&
   c.previous_a.view().set(i, a), c.next_a.view().set(i, a);
   c.previous_b.view().set(i, b), c.next_b.view().set(i, b);
   c.friction[i] = 1.0f;
+  c.groups[i] = kFirstGroup;
   c.enabled[i] = 1;
   world.capsules_filed = false;
   return enter(world, shape, ColliderKind::kCapsule, i);

@@ -23,7 +23,8 @@ void add_depths(const World& world, const ClothRecord& cloth, pleat_contact_repo
                       .planes = world.planes.data(),
                       .plane_count = world.planes.size(),
                       .meshes = world.mesh_pointers.data(),
-                      .bodies = world.bodies.get()});
+                      .bodies = world.bodies.get(),
+                      .collides_with = cloth.settings.collides_with});
   report.pins_inside = depths.pins_inside;
   report.particle_depth = depths.particle;
   report.pin_depth = depths.pin;

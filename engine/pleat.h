@@ -266,6 +266,9 @@ typedef struct pleat_cloth_settings {
   float sleep_speed; /* m/s. A cloth that was slower than this everywhere for half a second sleeps: it stays as it is
                         and costs next to nothing until its pins, bodies near it, a layer below it, the air, gravity
                         or settings change. In gusts it does not sleep. Default 0: never; .001 is hard to see */
+  uint32_t collides_with; /* bits: meets the bodies that are in one of these groups, see `groups` of a collider, as if
+                             there were no others; default 0xffffffff: all */
+  uint32_t reserved;      /* 0: keeps a pleat_cloth_def free of padding until another setting needs the place */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -348,6 +351,8 @@ typedef struct pleat_collider_def {
   float position[3];     /* plane, box, hull: origin of the body's frame, m */
   float rotation[4];     /* of that frame, a unit quaternion x, y, z, w; default 0, 0, 0, 1 */
   float half_extents[3]; /* box: m, at least 1e-4 */
+  uint32_t groups;       /* bits: the groups it is in; cloths whose collides_with has none of them do not meet it, and
+                            no cloth does where it is 0; default 1 */
 } pleat_collider_def;
 
 /* Settings that may change while the collider lives (collider_set). Filled by collider_get. */
@@ -355,6 +360,7 @@ typedef struct pleat_collider_settings {
   uint32_t size;
   float friction, thickness; /* as in pleat_collider_def */
   float radius, radius_b;    /* sphere, capsules; of a plain one both are the same. Others: 0, not read */
+  uint32_t groups;           /* as in pleat_collider_def */
 } pleat_collider_settings;
 
 /* ---- what happened ---------------------------------------------------------------------------------------------- */
@@ -390,8 +396,8 @@ typedef struct pleat_stats {
   uint64_t ticks_given_up;     /* cloths that are seen and take one of two, four or eight ticks */
 } pleat_stats;
 
-/* How one cloth stands to the bodies: see cloth_contact_report. Depths are below a body's own surface, whatever
- * thickness asks for, m; 0 outside. */
+/* How one cloth stands to the bodies that it collides with: see cloth_contact_report. Depths are below a body's own
+ * surface, whatever thickness asks for, m; 0 outside. */
 typedef struct pleat_contact_report {
   uint32_t size;              /* set by the caller to sizeof(pleat_contact_report) */
   uint32_t pins_inside;       /* pins in a body: the host put them there, and the cloth around them cannot leave */

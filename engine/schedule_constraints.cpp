@@ -235,7 +235,8 @@ constexpr Row kRows[] = {
                           .thickness = t.settings.thickness,
                           .friction = t.settings.friction,
                           .dt = t.dt,
-                          .contacts = contacts_of(t)},
+                          .contacts = contacts_of(t),
+                          .collides_with = t.settings.collides_with},
            t.worker.stats);
      }},
     {Phase::kContact, "mesh_candidates", with_meshes,
@@ -253,7 +254,8 @@ constexpr Row kRows[] = {
                           .t1 = t.t1,
                           .thickness = t.settings.thickness,
                           .dt = t.dt,
-                          .candidates = &t.worker.mesh_candidates});
+                          .candidates = &t.worker.mesh_candidates,
+                          .collides_with = t.settings.collides_with});
      }},
     {Phase::kContact, "mesh_detection", with_meshes,
      [](ClothTick& t) {
@@ -272,7 +274,8 @@ constexpr Row kRows[] = {
                          .thickness = t.settings.thickness,
                          .friction = t.settings.friction,
                          .dt = t.dt,
-                         .contacts = contacts_of(t)},
+                         .contacts = contacts_of(t),
+                         .collides_with = t.settings.collides_with},
            t.worker.stats);
      }},
 #endif

@@ -25,17 +25,17 @@ inline const char* without_some_ticks(const World&, const ClothRecord& c) {
   return takes_one_tick_of(c) == 1 ? "the cloth takes every tick" : kNeeded;
 }
 
-inline const char* with_colliders(const World& w, const ClothRecord&) {
-  return w.colliders.empty() ? "no collider" : kNeeded;
+inline const char* with_colliders(const World& w, const ClothRecord& c) {
+  return w.colliders.empty() ? "no collider" : c.settings.collides_with == 0 ? "collides_with is 0" : kNeeded;
 }
-inline const char* with_capsules(const World& w, const ClothRecord&) {
-  return w.colliders.empty() ? "no collider" : w.capsules.size() == 0 ? "no capsule" : kNeeded;
+inline const char* with_capsules(const World& w, const ClothRecord& c) {
+  return w.capsules.size() == 0 && !w.colliders.empty() ? "no capsule" : with_colliders(w, c);
 }
-inline const char* with_planes(const World& w, const ClothRecord&) {
-  return w.colliders.empty() ? "no collider" : w.planes.size() == 0 ? "no plane" : kNeeded;
+inline const char* with_planes(const World& w, const ClothRecord& c) {
+  return w.planes.size() == 0 && !w.colliders.empty() ? "no plane" : with_colliders(w, c);
 }
-inline const char* with_meshes(const World& w, const ClothRecord&) {
-  return w.colliders.empty() ? "no collider" : w.meshes.empty() ? "no mesh body" : kNeeded;
+inline const char* with_meshes(const World& w, const ClothRecord& c) {
+  return w.meshes.empty() && !w.colliders.empty() ? "no mesh body" : with_colliders(w, c);
 }
 inline const char* with_itself(const World&, const ClothRecord& c) {
   return c.settings.self_distance > 0.0f ? kNeeded : "self_distance is 0";
@@ -62,7 +62,8 @@ inline void move_capsules(ClothTick& t, float reach) {
                      .poses = t.worker.capsule_poses.data(),
                      .capacity = static_cast<std::uint32_t>(t.worker.capsule_poses.size()),
                      .pose_count = &t.worker.capsule_pose_count,
-                     .sought = &t.capsules_sought},
+                     .sought = &t.capsules_sought,
+                     .collides_with = t.settings.collides_with},
       t.worker.stats);
 }
 

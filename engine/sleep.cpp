@@ -33,6 +33,7 @@ Disturbance disturbance(const ClothTick& t) {
           .capsules = &w.capsules,
           .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
           .planes = {w.planes.data(), w.planes.size()},
+          .collides_with = t.settings.collides_with,
           .reach = t.settings.thickness + kNear};
 }
 

@@ -26,7 +26,7 @@ float travel_into_planes(const ClothTick& t, float reach) {
   const float room = std::min(reach * (kLeastMargin + t.settings.thickness), kRecoverySpeed * t.frame_dt);
   float most = 0.0f;
   for (const PlaneCollider& plane : t.world.planes) {
-    if (!plane.enabled) continue;
+    if (!plane.meets(t.settings.collides_with)) continue;
     const PlanePose begin(plane, 0.0f, t.cloth.origin), end(plane, 1.0f, t.cloth.origin);
     float before = 0.0f, after = 0.0f;  // depth, m
     for (std::uint32_t i = 0; i < t.garment.particle_count; ++i) {
@@ -57,6 +57,7 @@ float travel_of_bodies([[maybe_unused]] const ClothTick& t, [[maybe_unused]] flo
                           .bodies = t.world.bodies.get(),
                           .meshes = t.world.mesh_pointers.data(),
                           .mesh_count = static_cast<std::uint32_t>(t.world.mesh_pointers.size()),
+                          .collides_with = t.settings.collides_with,
                           .thickness = t.settings.thickness,
                           .dt = t.frame_dt,
                           .reach = reach,

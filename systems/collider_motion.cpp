@@ -42,6 +42,7 @@ void ColliderMotion::run(Stats& stats) const {
 std::uint32_t ColliderMotion::seek(const Box& box) const {
   std::uint32_t found = 0;
   bodies->for_each_capsule(box.moved(origin), [&](std::uint32_t i) {
+    if (!capsules->meets(i, collides_with)) return;
     if (found < capacity) poses[found].index = i;
     ++found;
   });

@@ -8,10 +8,11 @@
 
 namespace pleat {
 
-/// Picks the enabled capsules whose swept box comes within `reach` of the cloth's particles, and some more, and moves
-/// them in a straight line from their previous to their next pose: the substep ends at the fraction t1 of the tick and
-/// began at t0. A world may hold thousands of capsules; a cloth meets its few through Bullet's tree, and keeps them for
-/// the tick while it stays in the box for which they were sought. Runs after integration.
+/// Picks the capsules that the cloth meets and whose swept box comes within `reach` of its particles, and some more,
+/// and moves them in a straight line from their previous to their next pose: the substep ends at the fraction t1 of the
+/// tick and began at t0. A world may hold thousands of capsules; a cloth meets its few through Bullet's tree, and keeps
+/// them for the tick while it stays in the box for which they were sought. Runs after integration.
+///
 /// Reads:  capsules, bodies (their tree); position (P) m
 /// Writes: poses (at most `capacity`), ascending by index; pose_count; sought; stats.contacts_dropped
 /// Cost:   O(P + hits), and O(log capsules + hits log hits) where they are sought; no allocation.
@@ -28,6 +29,7 @@ struct ColliderMotion {
   std::uint32_t capacity = 0;
   std::uint32_t* pose_count = nullptr;
   Box* sought = nullptr;  // no capsule but those of `poses` comes into it in this tick; as made: not sought yet
+  std::uint32_t collides_with = kAllGroups;
 
   bool validate() const;
   void run(Stats& stats) const;

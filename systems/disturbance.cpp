@@ -30,7 +30,7 @@ bool Disturbance::run() const {
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::size_t i = 0; i < capsules->size(); ++i) {
-    if (capsules->enabled[i] == 0 || (a0[i] == a1[i] && b0[i] == b1[i])) continue;
+    if (!capsules->meets(i, collides_with) || (a0[i] == a1[i] && b0[i] == b1[i])) continue;
     Box from, to;
     from.include(a0[i]), from.include(b0[i]), to.include(a1[i]), to.include(b1[i]);
     const float radius = capsules->radius[i] + std::max(capsules->taper[i], 0.0f) + capsules->thickness[i];
@@ -39,11 +39,12 @@ bool Disturbance::run() const {
   for (const MeshCollider* mesh : meshes) {
     const ConstVec3View from = mesh->previous.view(), to = mesh->next.view();
     const std::size_t count = mesh->next.size();
-    if (!mesh->enabled || !moves(from, to, count)) continue;
+    if (!mesh->meets(collides_with) || !moves(from, to, count)) continue;
     if (passes(box_of(from, count), box_of(to, count), mesh->bow + mesh->thickness)) return true;
   }
-  return std::any_of(planes.begin(), planes.end(),
-                     [](const PlaneCollider& plane) { return plane.enabled && !(plane.previous == plane.next); });
+  return std::any_of(planes.begin(), planes.end(), [this](const PlaneCollider& plane) {
+    return plane.meets(collides_with) && !(plane.previous == plane.next);
+  });
 }
 
 float largest_speed(std::size_t count, const ConstVec3View& velocity) {

@@ -8,8 +8,9 @@
 
 namespace pleat {
 
-/// Says whether a pin moves in this tick, or a body that moves comes within `reach` of the cloth: on its way or, where
-/// it jumps, as it leaves or arrives.
+/// Says whether a pin moves in this tick, or a body that the cloth meets and that moves comes within `reach` of it: on
+/// its way or, where it jumps, as it leaves or arrives.
+///
 /// Reads:  position (P) m; pin_previous, pin_next (pins) m; bodies
 /// Cost:   O(P + capsules), and O(vertices) of each mesh that may have moved; no allocation. Errors: none.
 struct Disturbance {
@@ -20,6 +21,7 @@ struct Disturbance {
   const CapsuleColumns* capsules = nullptr;
   std::span<const MeshCollider* const> meshes;
   std::span<const PlaneCollider> planes;
+  std::uint32_t collides_with = kAllGroups;
   float reach = 0.0f;      // m
   bool on_the_way = true;  // else bodies jump
 

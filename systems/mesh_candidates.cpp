@@ -26,7 +26,9 @@ struct FaceAround {
 
 PLEAT_KERNEL BoxLanes lanes_of(const Box& box) { return {all(box.low), all(box.high)}; }
 
-MeshSought sought_of(const MeshCollider& mesh) { return {mesh.enabled, mesh.thickness, mesh.depth}; }
+MeshSought sought_of(const MeshCollider& mesh, std::uint32_t groups) {
+  return {mesh.meets(groups), mesh.thickness, mesh.depth};
+}
 
 /// Collects the candidates of one mesh.
 struct Gatherer {
@@ -309,7 +311,7 @@ void MeshCandidates::run() const {
     const MeshCollider& mesh = *meshes[m];
     const float mesh_reach = out.reach + mesh.thickness, search = mesh_search(mesh, mesh_reach, t0);
     const std::uint32_t first = out.posed.count;
-    if (mesh.enabled &&
+    if (mesh.meets(collides_with) &&
         box.grown(search + most_slack + box_rounding(origin)).moved(origin).overlaps(bodies->swept_box(m))) {
       const Gatherer gatherer{*this, mesh, bodies->topology(m), m, mesh_reach, search};
       const std::uint32_t* begin = garment->clustered_faces.data();
@@ -320,7 +322,7 @@ void MeshCandidates::run() const {
     }
     for (const std::uint32_t v : out.posed.between(first, out.posed.count)) out.is_posed[v] = 0;
     out.ends[m] = out.so_far();
-    out.sought[m] = sought_of(mesh);
+    out.sought[m] = sought_of(mesh, collides_with);
   }
 }
 
@@ -329,7 +331,7 @@ bool MeshCandidates::still_hold(float reach) const {
   if (in.garment != garment || in.origin != origin || in.revision != bodies->revision() || reach > in.reach)
     return false;
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
-    if (in.sought[m] != sought_of(*meshes[m])) return false;
+    if (in.sought[m] != sought_of(*meshes[m], collides_with)) return false;
   }
   float off2 = 0.0f;  // m2, more than the slack
   run_wide(widest_vectors(), [&] {

@@ -36,6 +36,7 @@ struct MeshCandidates {
   float thickness = 0.0f;                       // m
   float dt = 0.0f;                              // s, of the substep
   MeshCandidateColumns* candidates = nullptr;
+  std::uint32_t collides_with = kAllGroups;
 
   bool validate() const;
   void run() const;

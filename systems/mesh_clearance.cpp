@@ -365,7 +365,8 @@ void MeshClearance::run() const {
   const Box cloth = box_of(drawn_position, pattern->vertex_count).with(box_of(footprint, pattern->vertex_count));
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     MeshTest test{*this, {*meshes[m], bodies->topology(m), t, t, origin}, m};
-    if (!meshes[m]->enabled || !cloth.grown(test.kept).moved(origin).overlaps(bodies->swept_box(m))) continue;
+    if (!meshes[m]->meets(collides_with) || !cloth.grown(test.kept).moved(origin).overlaps(bodies->swept_box(m)))
+      continue;
     run_wide(widest_vectors(), [&] { test.run(); });
   }
 }

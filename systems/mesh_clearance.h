@@ -34,9 +34,10 @@ struct MeshClearance {
   Vec3 origin{};  // of positions, m in the world
   const CollisionBodies* bodies = nullptr;
   const MeshCollider* const* meshes = nullptr;  // bodies->mesh_count() of them, in that order
-  float t = 1.0f;                               // fraction of the tick at which the bodies are asked for
-  float clearance = 0.0f;                       // m
-  NearTriangleView near;                        // room for the largest body
+  std::uint32_t collides_with = kAllGroups;
+  float t = 1.0f;          // fraction of the tick at which the bodies are asked for
+  float clearance = 0.0f;  // m
+  NearTriangleView near;   // room for the largest body
   ClearanceList planes;
   Vec3View drawn_position;
 

@@ -311,7 +311,7 @@ void MeshDetection::run(Stats& stats) const {
   MeshCandidateEnds begin;
   for (std::uint32_t m = 0; m < bodies->mesh_count(); ++m) {
     const MeshCandidateEnds end = among ? candidates->ends[m] : begin;
-    if (among ? end == begin : !meshes[m]->enabled) continue;
+    if (among ? end == begin : !meshes[m]->meets(collides_with)) continue;
     const MeshTest test{*this, {*meshes[m], bodies->topology(m), t0, t1, origin}, rows, margin, stats};
     if (among) {
       test.test_candidates(*candidates, std::exchange(begin, end), end);

@@ -38,6 +38,7 @@ struct MeshDetection {
   float friction = 0.0f;
   float dt = 0.0f;  // s, of the substep
   ContactList contacts;
+  std::uint32_t collides_with = kAllGroups;
 
   bool validate() const;
   void run(Stats& stats) const;

@@ -135,12 +135,12 @@ float depth_of_drawn(const Penetration& in, const Body& body) {
   return depth;
 }
 
-/// visit(body, kind, index) for every body that is enabled.
+/// visit(body, kind, index) for every body that the cloth meets.
 template <class Visit>
 void for_each_body(const Penetration& in, const Visit& visit) {
   for (std::uint32_t i = 0; in.capsules != nullptr && i < in.capsules->size(); ++i) {
     const CapsuleColumns& c = *in.capsules;
-    if (c.enabled[i] == 0) continue;
+    if (!c.meets(i, in.collides_with)) continue;
     const auto at = [&](const Vec3Column& previous, const Vec3Column& next) {
       return lerp(previous.view()[i] - in.origin, next.view()[i] - in.origin, in.t);
     };
@@ -156,10 +156,10 @@ void for_each_body(const Penetration& in, const Visit& visit) {
   for (std::uint32_t i = 0; i < in.plane_count; ++i) {
     PlaneCollider plane = in.planes[i];
     plane.thickness = 0.0f;
-    if (plane.enabled) visit(InPlane{PlanePose(plane, in.t, in.origin)}, ColliderKind::kPlane, i);
+    if (plane.meets(in.collides_with)) visit(InPlane{PlanePose(plane, in.t, in.origin)}, ColliderKind::kPlane, i);
   }
   for (std::uint32_t i = 0; in.bodies != nullptr && i < in.bodies->mesh_count(); ++i) {
-    if (!in.meshes[i]->enabled) continue;
+    if (!in.meshes[i]->meets(in.collides_with)) continue;
     visit(InMesh{{*in.meshes[i], in.bodies->topology(i), in.t, in.t, in.origin}, *in.bodies, i}, ColliderKind::kMesh,
           i);
   }

@@ -39,7 +39,8 @@ struct Penetration {
   std::size_t plane_count = 0;
   const MeshCollider* const* meshes = nullptr;
   const CollisionBodies* bodies = nullptr;  // null: no meshes
-  float t = 0.0f;                           // fraction of the tick at which the bodies are asked for
+  std::uint32_t collides_with = kAllGroups;
+  float t = 0.0f;  // fraction of the tick at which the bodies are asked for
 
   bool validate() const;
   PenetrationDepths run() const;

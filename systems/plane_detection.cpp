@@ -15,7 +15,7 @@ void PlaneDetection::run(Stats& stats) const {
   const ContactRowMaker rows{previous, inverse_mass, friction, dt, contacts};
   for (std::size_t k = 0; k < plane_count; ++k) {
     const PlaneCollider& plane = planes[k];
-    if (!plane.enabled) continue;
+    if (!plane.meets(collides_with)) continue;
     const PlanePose pose(plane, t1, origin);
     const RigidPose from = plane.previous.from(origin), to = plane.next.from(origin);
     const RigidStep step(interpolate(from, to, t0), interpolate(from, to, t1));

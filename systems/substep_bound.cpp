@@ -81,6 +81,7 @@ float SubstepBound::run() const {
   const float most_room = carry ? kRecoverySpeed * dt : std::numeric_limits<float>::infinity();
   float most = 0.0f;
   bodies->for_each_capsule(cloth, [&](std::uint32_t i) {
+    if (!capsules->meets(i, collides_with)) return;
     Box swept;
     for (const Vec3& end : {a0[i], a1[i], b0[i], b1[i]}) swept.include(end);
     const float radius = capsules->radius[i], taper = capsules->taper[i];
@@ -100,7 +101,7 @@ float SubstepBound::run() const {
     }
   });
   for (std::uint32_t m = 0; m < mesh_count; ++m) {
-    if (!meshes[m]->enabled) continue;
+    if (!meshes[m]->meets(collides_with)) continue;
     const float way = motion_near(cloth, *meshes[m], carried);
     const float room = (carry ? reach : 1.0f) * (kLeastMargin + meshes[m]->thickness + thickness);
     if (way > 0.0f) most = std::max(most, (way + own) / std::min(room, most_room));

@@ -27,6 +27,7 @@ struct SubstepBound {
   const CollisionBodies* bodies = nullptr;  // knows which capsules are near
   const MeshCollider* const* meshes = nullptr;
   std::uint32_t mesh_count = 0;
+  std::uint32_t collides_with = kAllGroups;
   float thickness = 0.0f;                 // m
   float dt = 0.0f;                        // s, of the tick
   float reach = 0.5f;                     // of a capsule's radius + thickness, that a substep may take

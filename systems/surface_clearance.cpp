@@ -197,7 +197,7 @@ struct Lifter {
 
   PLEAT_KERNEL void run() {
     for (std::size_t k = 0; k < in.half_space_count; ++k) {
-      if (in.half_spaces[k].enabled) look_at(PlanePose(in.half_spaces[k], in.t, in.origin));
+      if (in.half_spaces[k].meets(in.collides_with)) look_at(PlanePose(in.half_spaces[k], in.t, in.origin));
     }
     for (std::uint32_t k = 0; k < in.capsule_count; k += kLanes) look_at(k, std::min(kLanes, in.capsule_count - k));
     if (pairs.count != 0) keep_apart();

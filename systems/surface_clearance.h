@@ -39,6 +39,7 @@ struct SurfaceClearance {
   std::uint32_t capsule_count = 0;
   const PlaneCollider* half_spaces = nullptr;
   std::size_t half_space_count = 0;
+  std::uint32_t collides_with = kAllGroups;
   float t = 1.0f;                // fraction of the tick at which the half-spaces are asked for
   float clearance = 0.0f;        // m
   const float* bulge = nullptr;  // (F) m, a column: how far the vertices of faces are from the flat triangles at most,

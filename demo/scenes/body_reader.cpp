@@ -120,14 +120,15 @@ MotionDef read_sequence(const JsonValue& sequence, const SceneFile& file) {
 }  // namespace
 
 FixedBody read_fixed_body(const JsonValue& body, const SceneFile& file) {
-  body.allow_keys(
-      {"sphere", "capsule", "tapered_capsule", "plane", "box", "hull", "icosphere", "obj", "friction", "thickness"});
+  body.allow_keys({"sphere", "capsule", "tapered_capsule", "plane", "box", "hull", "icosphere", "obj", "friction",
+                   "thickness", "groups"});
   const std::string kind =
       body.one_of({"sphere", "capsule", "tapered_capsule", "plane", "box", "hull", "icosphere", "obj"});
   const JsonValue shape = body.at(kind);
   FixedBody fixed;
   if (const auto friction = body.find("friction")) fixed.friction = float(friction->number(0.0, 10.0));
   if (const auto thickness = body.find("thickness")) fixed.thickness = float(thickness->number(0.0, 1.0));
+  if (const auto groups = body.find("groups")) fixed.groups = groups->integer(0, 0xffffffff);
   if (kind == "sphere") {
     shape.allow_keys({"center", "radius"});
     const Eigen::Vector3f center = read_point(shape.at("center"));

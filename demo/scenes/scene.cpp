@@ -136,6 +136,7 @@ void Scene::create_fixed_bodies() {
     api_.collider_def_init(&part, sizeof part);
     part.friction = fixed.friction;
     part.thickness = fixed.thickness;
+    part.groups = fixed.groups;
     if (const auto* capsule = std::get_if<CapsulePose>(&fixed.shape)) {
       describe(*capsule, Eigen::Vector3f::Zero(), part);
     } else if (const auto* mesh = std::get_if<TriangleMesh>(&fixed.shape)) {

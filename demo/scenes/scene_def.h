@@ -27,6 +27,7 @@ struct FixedBody {
   std::variant<CapsulePose, TriangleMesh, RigidBody> shape;
   float friction = 1.0f;   ///< multiplied by the cloth's
   float thickness = 0.0f;  ///< kept from it besides the cloth's
+  uint32_t groups = 1;     ///< bits, see pleat_collider_def
 
   /// Null for a capsule.
   const TriangleMesh* outline() const {

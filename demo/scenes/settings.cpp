@@ -54,7 +54,8 @@ constexpr Setting kTable[] = {{"integrator", &S::integrator, kIntegratorWords},
                               {"layer", &S::layer},
                               {"buckling_strain", &S::buckling_strain},
                               {"teleport_speed", &S::teleport_speed},
-                              {"sleep_speed", &S::sleep_speed}};
+                              {"sleep_speed", &S::sleep_speed},
+                              {"collides_with", &S::collides_with}};
 
 template <typename Named>
 std::string names_of(std::span<const Named> list) {

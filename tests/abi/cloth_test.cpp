@@ -48,6 +48,7 @@ TEST_F(Cloth, EachSettingIsRefusedByNameWhereItIsSetAndWhereItIsMade) {
   refused("fold_sweeps", &S::fold_sweeps, 65u);
   refused("tangents", &S::tangents, 2u);
   refused("layer", &S::layer, 16u);
+  refused("reserved", &S::reserved, 1u);
   const std::pair<const char*, float S::*> floats[] = {{"density", &S::density},
                                                        {"stiffness", &S::stiffness},
                                                        {"stretch_limit", &S::stretch_limit},

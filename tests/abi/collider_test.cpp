@@ -162,7 +162,7 @@ TEST_F(Collider, SettingsChangeAndAreChecked) {
     EXPECT_EQ(s.radius_b, kind == PLEAT_COLLIDER_TAPERED_CAPSULE ? 0.2f : s.radius);
     s.friction = 0.25f;
     ASSERT_EQ(api().collider_set(world, id, &s), pleat_result{PLEAT_OK});
-    pleat_collider_settings small{offsetof(pleat_collider_settings, thickness), 0.75f, kNan, kNan, kNan};
+    pleat_collider_settings small{offsetof(pleat_collider_settings, thickness), 0.75f, kNan, kNan, kNan, 0};
     ASSERT_EQ(api().collider_set(world, id, &small), pleat_result{PLEAT_OK});
     ASSERT_EQ(api().collider_get(world, id, &s), pleat_result{PLEAT_OK});
     EXPECT_EQ(s.friction, 0.75f);

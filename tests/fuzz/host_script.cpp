@@ -135,6 +135,7 @@ class Host {
     if (bytes_.below(4) == 1) s.tangents = bytes_.below(2), s.fold_sweeps = bytes_.below(9);
     if (bytes_.below(4) == 1) s.layer = bytes_.below(4);
     s.face_response = bytes_.below(2);
+    if (bytes_.rarely()) s.collides_with = bytes_.below(4);
   }
 
   void make_cloth() {
@@ -238,6 +239,7 @@ class Host {
     note(api_.collider_get(world_, body, &s));
     s.friction = bytes_.scaled(0.5f), s.thickness = bytes_.scaled(0.01f);
     s.radius = bytes_.scaled(0.1f), s.radius_b = bytes_.scaled(0.1f);
+    if (bytes_.rarely()) s.groups = bytes_.below(4);
     note(api_.collider_set(world_, body, &s));
     note(api_.collider_set_enabled(world_, body, bytes_.below(2)));
   }
