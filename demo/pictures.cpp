@@ -16,7 +16,7 @@ namespace pleat::demo {
 namespace {
 
 constexpr uint32_t kSheetCells = 12;
-constexpr int kSheetColumns = 4, kSheetWidth = 480, kStagesWidth = 640;  // pixels
+constexpr int kSheetColumns = 4, kSheetWidth = 480, kStagesWidth = 640, kStagesHeight = 4096;  // pixels
 
 template <typename... Values>
 std::string text(const char* format, Values... values) {
@@ -42,11 +42,7 @@ class StagePainter {
 
   Cell coarse() {
     return paint(PLEAT_SURFACE_FLAT, text("coarse: %u triangles", record_.garment.triangles),
-                 [](View& view, Scene& scene) {
-                   Frame frame = view.bodies(scene);
-                   frame.meshes.push_back(view.coarse_cloth(scene));
-                   return frame;
-                 });
+                 [](View& view, Scene& scene) { return view.coarse(scene); });
   }
 
   Cell surface(uint32_t surface, const char* label) {
@@ -57,8 +53,7 @@ class StagePainter {
   Cell sticks(uint32_t surface) {
     return paint(
         surface, "normals before (yellow) and after (orange), edge length (purple)", [this](View& view, Scene& scene) {
-          Frame frame = view.bodies(scene);  // over the coarse triangles, so that no stick hides under the surface
-          frame.meshes.push_back(view.coarse_cloth(scene));
+          Frame frame = view.coarse(scene);  // not the surface, so that no stick hides under it
           scene.check(api_.world_debug_draw(scene.world(), kShownSticks, add_stick, &frame.sticks), "debug drawing");
           return frame;
         });
@@ -71,7 +66,8 @@ class StagePainter {
     Scene scene(api_, std::move(def));
     while (scene.frame() < record_.most_compressed_frame) scene.advance();
     View view(scene, cloth_box(scene), aspect(size_));
-    return {shrink(renderer_.draw(compose(view, scene)), std::min(size_.width, kStagesWidth)), label};
+    const int width = std::min({size_.width, kStagesWidth, size_.width * kStagesHeight / size_.height});
+    return {shrink(renderer_.draw(compose(view, scene)), width), label};
   }
 
   const pleat_api& api_;
