@@ -194,7 +194,7 @@ int run_program(int argc, char** argv) {
   if (ensembles) {
     figures["ensembles"] = of_many_starts(api, folder, changes, quick);
     figures["machine"] = describe_machine(api);
-    json.commit(figures.dump(2) + "\n");
+    json.commit(figures);
     return 0;
   }
   const std::vector<Arena> all = arenas(api, folder, scenes, changes);
@@ -209,7 +209,7 @@ int run_program(int argc, char** argv) {
     figures["scenes"] = scores_json(scores);
   }
   figures["machine"] = describe_machine(api);
-  json.commit(figures.dump(2) + "\n");
+  json.commit(figures);
   return 0;
 }
 

@@ -86,7 +86,7 @@ void compare(const pleat_api& api, const std::filesystem::path& folder, const pl
       ++row;
     }
   }
-  json.commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}}.dump(2) + "\n");
+  json.commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}});
 }
 
 int run_program(int argc, char** argv) {
