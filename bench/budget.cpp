@@ -110,7 +110,8 @@ Spread best_of(const std::vector<std::vector<double>>& runs) {
 
 using StageRuns = std::vector<std::vector<StageClock::Stage>>;
 
-std::vector<NamedSpread> best_stages(const StageRuns& runs) {
+std::vector<NamedSpread> best_stages(StageRuns runs) {
+  demo::align(runs);
   std::vector<NamedSpread> spreads;
   for (size_t s = 0; s < runs[0].size(); ++s) {
     std::vector<std::vector<double>> frames;
