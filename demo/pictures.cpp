@@ -64,7 +64,11 @@ class StagePainter {
     SceneDef def = def_;
     def.settings.surface = surface;
     Scene scene(api_, std::move(def));
-    while (scene.frame() < record_.most_compressed_frame) scene.advance();
+    Progress progress("drawing stages, frame", record_.most_compressed_frame);
+    while (scene.frame() < record_.most_compressed_frame) {
+      scene.advance();
+      progress.step();
+    }
     View view(scene, cloth_box(scene), aspect(size_));
     const int width = std::min({size_.width, kStagesWidth, size_.width * kStagesHeight / size_.height});
     return {shrink(renderer_.draw(compose(view, scene)), width), label};
