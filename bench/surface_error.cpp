@@ -104,9 +104,13 @@ int run_program(int argc, char** argv) {
   if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = pleat::demo::library();
+  const pleat_cloth_settings settings = settings_with(api, changes);
   json.open();
-  if (again) regenerate(api, folder);
-  compare(api, folder, settings_with(api, changes), json);
+  if (again) {
+    require_folder(folder);
+    regenerate(api, folder);
+  }
+  compare(api, folder, settings, json);
   return 0;
 }
 
