@@ -41,12 +41,12 @@ class StagePainter {
       : api_(api), def_(def), record_(record), size_(size), renderer_(size.width, size.height) {}
 
   Cell coarse() {
-    return paint(PLEAT_SURFACE_FLAT, text("coarse: %u triangles", record_.garment.triangles),
+    return paint(PLEAT_SURFACE_FLAT, text("coarse: %zu triangles", record_.cloths * record_.garment.triangles),
                  [](View& view, Scene& scene) { return view.coarse(scene); });
   }
 
   Cell surface(uint32_t surface, const char* label) {
-    return paint(surface, text("%s: %u triangles", label, record_.cloth.drawn_triangles),
+    return paint(surface, text("%s: %zu triangles", label, record_.cloths * record_.cloth.drawn_triangles),
                  [](View& view, Scene& scene) { return view.frame(scene); });
   }
 
