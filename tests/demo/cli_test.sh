@@ -170,7 +170,7 @@ done
 # Ctrl-C and SIGTERM end a run and leave nothing behind.
 for signal in INT TERM; do
   before=$(find . | sort)
-  for command in 'run hanging_square:16 --frames 100000 --out interrupted' \
+  for command in 'run hanging_square:16 --frames 100000 --out interrupted' 'run hanging_square:64 --frames 1 --out interrupted' \
     'compare hanging_square:16 --row level=1 --columns 9 --every 10000 --size 64x64 --out interrupted.png'; do
     # shellcheck disable=SC2086
     timeout --signal "$signal" --kill-after 10 0.5 "$pleat" $command >/dev/null 2>"$work.stderr"
