@@ -65,7 +65,7 @@ int run_program(int argc, char** argv) {
     print_worth(worth);
     figures.push_back(worth_json(worth));
   }
-  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
+  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}});
   return 0;
 }
 

@@ -110,7 +110,8 @@ Spread best_of(const std::vector<std::vector<double>>& runs) {
 
 using StageRuns = std::vector<std::vector<StageClock::Stage>>;
 
-std::vector<NamedSpread> best_stages(const StageRuns& runs) {
+std::vector<NamedSpread> best_stages(StageRuns runs) {
+  demo::align(runs);
   std::vector<NamedSpread> spreads;
   for (size_t s = 0; s < runs[0].size(); ++s) {
     std::vector<std::vector<double>> frames;
@@ -141,13 +142,15 @@ void measure_quality(const pleat_api& api, const SceneDef& def, Progress& progre
   budget.quality = quality.result();
 }
 
-demo::Quality peer_quality(const pleat_api& api, const SceneDef& def, const BulletSettings& settings) {
+demo::Quality peer_quality(const pleat_api& api, const SceneDef& def, const BulletSettings& settings,
+                           Progress& progress) {
   const Scene ours(api, def);
   SceneQuality quality(ours);
   BulletScene peer(def, settings);
   for (uint32_t frame = 0; frame < def.frames; ++frame) {
     peer.advance();
     quality.add_frame(peer, {});
+    progress.step();
   }
   quality.measure_rest(peer);
   return quality.result();
@@ -206,7 +209,8 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
   single.workers = 1;
   SceneDef pn = single;
   pn.settings.surface = PLEAT_SURFACE_PN;
-  Progress progress("measuring, frame", def.frames * (repeat * ((folds ? 3u : 2u) + (peer ? 1u : 0u)) + 1));
+  const uint32_t runs = (folds ? 3 : 2) + (peer ? 1 : 0);  // as many in each round as for quality and surface
+  Progress progress("measuring, frame", def.frames * runs * (repeat + 1));
 
   std::vector<std::vector<double>> frames, peer_frames;
   StageRuns systems, groups, pn_groups;
@@ -229,11 +233,11 @@ Budget measure_budget(const pleat_api& api, const SceneDef& def, uint32_t repeat
   if (peer) {
     const Spread frame = best_of(peer_frames);
     budget.peer = {
-        *peer, frame, peer_quality(api, def, *peer), median_ratio(frames, peer_frames),
+        *peer, frame, peer_quality(api, def, *peer, progress), median_ratio(frames, peer_frames),
         (stage_sum(budget.stages, kIntegrationStages) + stage_sum(budget.stages, kCollisionStages)) / frame.median};
   }
-  budget.surface = demo::measure_surface(api, def);
-  if (folds) budget.pn_surface = demo::measure_surface(api, pn);
+  budget.surface = demo::measure_surface(api, def, [&] { progress.step(); });
+  if (folds) budget.pn_surface = demo::measure_surface(api, pn, [&] { progress.step(); });
   return budget;
 }
 

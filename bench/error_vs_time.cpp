@@ -159,13 +159,16 @@ int run_program(int argc, char** argv) {
   for (const RestScene& scene : rest_scenes()) known.emplace_back(scene.name);
   std::filesystem::path folder = PLEAT_FINE_DIR;
   app.add_flag("--quick", quick, "two densities and fewer methods");
-  app.add_option("--scene", words, "only this one; may be repeated")->type_name("NAME")->check(CLI::IsMember(known));
+  auto* scene_option = app.add_option("--scene", words, "only this one; may be repeated")
+                           ->type_name("NAME")
+                           ->check(CLI::IsMember(known));
   auto* dominant_flag =
       app.add_flag("--dominant", dominant, "instead, where pleat's error comes from: one part at a time made perfect");
   auto* ensembles_flag = app.add_flag("--ensembles", ensembles,
                                       "instead, cloth that buckles or moves, of which only what is common to many "
                                       "starts can be compared")
-                             ->excludes(dominant_flag);
+                             ->excludes(dominant_flag)
+                             ->excludes(scene_option);
   app.add_flag(
          "--meshes", meshes,
          "instead, pleat alone over meshes of several patterns; --svg draws it as it was at an earlier commit, too")
@@ -176,7 +179,9 @@ int run_program(int argc, char** argv) {
   demo::OutputOption json(app, "--json", "write the figures for scripts");
   app.add_option("--set", changes, "a setting of our cloths, see `pleat list`")->type_name("KEY=VALUE");
   app.add_option("--fine", folder, "where the references are")->type_name("DIR")->capture_default_str();
-  app.add_flag("--regenerate", again, "compute the references anew and keep them there, no more");
+  app.add_flag("--regenerate", again, "compute the references anew and keep them there, no more")
+      ->excludes(&json.option())
+      ->excludes(&svg.option());
   if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = demo::library();
@@ -185,6 +190,7 @@ int run_program(int argc, char** argv) {
     if (words.empty() || std::ranges::find(words, scene.name) != words.end()) scenes.push_back(&scene);
   }
   if (again) {
+    require_folder(folder);
     ensembles ? regenerate_ensembles(api, folder) : regenerate(api, folder, scenes);
     return 0;
   }
@@ -194,7 +200,7 @@ int run_program(int argc, char** argv) {
   if (ensembles) {
     figures["ensembles"] = of_many_starts(api, folder, changes, quick);
     figures["machine"] = describe_machine(api);
-    json.commit(figures.dump(2) + "\n");
+    json.commit(figures);
     return 0;
   }
   const std::vector<Arena> all = arenas(api, folder, scenes, changes);
@@ -209,7 +215,7 @@ int run_program(int argc, char** argv) {
     figures["scenes"] = scores_json(scores);
   }
   figures["machine"] = describe_machine(api);
-  json.commit(figures.dump(2) + "\n");
+  json.commit(figures);
   return 0;
 }
 

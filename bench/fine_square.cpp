@@ -135,6 +135,11 @@ FineSolution solve(const pleat_api& api, const FineSquare& square, const std::fu
   return solution;
 }
 
+void require_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) throw demo::InputError(folder.string(), "is not a folder");
+}
+
 std::vector<float> read_fine(const std::filesystem::path& folder, const std::string& name) {
   const std::string path = file_of(folder, name).string();
   std::ifstream stream(path, std::ios::binary);

@@ -35,6 +35,9 @@ struct FineSolution {
 FineSolution solve(const pleat_api& api, const FineSquare& square, const std::function<void()>& step);
 inline constexpr uint32_t kSolveSteps = 1800;
 
+/// Throws InputError where there is no such folder: to be known before minutes of work.
+void require_folder(const std::filesystem::path& folder);
+
 /// A solution as it is kept in the file `NAME.f32`: 32-bit little-endian floats. Throw InputError, naming the file,
 /// where it cannot be read or written, is not of the right length, or holds what is not finite.
 std::vector<float> read_fine(const std::filesystem::path& folder, const std::string& name);

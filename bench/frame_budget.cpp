@@ -39,7 +39,9 @@ int run_program(int argc, char** argv) {
   uint32_t starts = 1;
   uint32_t threads = 1;
   app.add_option("--scene", request.scene, "a scene of `pleat list` or the path of a JSON file")->capture_default_str();
-  app.add_option("--clip", request.clip, "in place of the scene's motion")->type_name("BVH");
+  app.add_option("--clip", request.clip, "in place of the scene's motion")
+      ->type_name("BVH")
+      ->check(pleat::demo::named());
   app.add_option("--speed", request.speed, "times as fast as the scene's motion is")
       ->check(pleat::demo::between(0.01, 100.0));
   app.add_option("--rate", request.rate, "frames a second")->type_name("HZ")->check(pleat::demo::between(1.0, 10000.0));
@@ -82,7 +84,7 @@ int run_program(int argc, char** argv) {
   if (json) {
     nlohmann::ordered_json figures = pleat::bench::budget_json(api, def, budget);
     if (starts > 1) figures["starts"] = pleat::bench::starts_json(from_starts);
-    json.commit(figures.dump(2) + "\n");
+    json.commit(figures);
   }
   pleat::bench::print_budget(def, budget);
   if (starts > 1) pleat::bench::print_starts(from_starts);

@@ -25,7 +25,11 @@ if [[ $1 == --update ]]; then
   update=1
   shift
 fi
-readonly program=$1
+readonly program=${1-}
+[[ -x $program ]] || {
+  echo "bench/instructions.sh: there is no program \`$program\` to run" >&2
+  exit 2
+}
 
 skip() {
   echo "skipped: $1"

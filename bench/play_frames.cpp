@@ -9,6 +9,7 @@
 #include "bench/machine.h"
 #include "demo/program/entry.h"
 #include "demo/program/options.h"
+#include "demo/program/progress.h"
 #include "demo/scenes/drawn_surface.h"
 #include "demo/scenes/scene.h"
 #include "demo/scenes/scene_reader.h"
@@ -37,9 +38,13 @@ int run_program(int argc, char** argv) {
                 "plan");
   std::vector<demo::DrawnSurface> surfaces;
   for (size_t k = 0; k < scene.cloths().size(); ++k) surfaces.push_back(demo::make_surface(scene, k));
-  for (uint32_t frame = 0; frame < scene.def().frames; ++frame) {
-    scene.advance();
-    for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
+  {
+    demo::Progress progress("playing, frame", scene.def().frames);
+    for (uint32_t frame = 0; frame < scene.def().frames; ++frame) {
+      scene.advance();
+      for (size_t k = 0; k < surfaces.size(); ++k) demo::read_vertices(scene, k, surfaces[k]);
+      progress.step();
+    }
   }
   const nlohmann::ordered_json machine = pleat::bench::describe_machine(api);
   std::printf("compiler %s\nflags %s\n", machine["compiler"].get<std::string>().c_str(),

@@ -85,7 +85,7 @@ int run_program(int argc, char** argv) {
     figures.push_back(json_of(growth));
   }
   svg.commit(growth_chart(scenes));
-  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}}.dump(2) + "\n");
+  json.commit(nlohmann::ordered_json{{"scenes", figures}, {"machine", describe_machine(api)}});
   return 0;
 }
 

@@ -138,7 +138,7 @@ int run_program(int argc, char** argv) {
   if (!only_events) good = run_grid(api, scene, grid, figures, svg);
   if (words.empty()) good = run_events(api, scene, full ? 1'000'000 : quick ? 0 : 20'000, figures) && good;
   figures["machine"] = describe_machine(api);
-  json.commit(figures.dump(2) + "\n");
+  json.commit(figures);
   return good ? 0 : demo::kOwnFailure;
 }
 

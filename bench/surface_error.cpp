@@ -86,7 +86,7 @@ void compare(const pleat_api& api, const std::filesystem::path& folder, const pl
       ++row;
     }
   }
-  json.commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}}.dump(2) + "\n");
+  json.commit(nlohmann::ordered_json{{"cases", cases}, {"machine", describe_machine(api)}});
 }
 
 int run_program(int argc, char** argv) {
@@ -104,9 +104,13 @@ int run_program(int argc, char** argv) {
   if (const auto status = demo::parse(app, argc, argv)) return *status;
 
   const pleat_api& api = pleat::demo::library();
+  const pleat_cloth_settings settings = settings_with(api, changes);
   json.open();
-  if (again) regenerate(api, folder);
-  compare(api, folder, settings_with(api, changes), json);
+  if (again) {
+    require_folder(folder);
+    regenerate(api, folder);
+  }
+  compare(api, folder, settings, json);
   return 0;
 }
 

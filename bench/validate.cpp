@@ -94,7 +94,7 @@ int run_program(int argc, char** argv) {
   const pleat_api& api = demo::library();
   json.open();
   const std::vector<Outcome> outcomes = run_all(api, chosen(names, quick));
-  json.commit(as_json(api, outcomes).dump(2) + "\n");
+  json.commit(as_json(api, outcomes));
   return print(outcomes) == 0 ? 0 : demo::kOwnFailure;
 }
 

@@ -14,17 +14,20 @@ namespace pleat::demo {
 namespace {
 
 constexpr float kCloseUp = 0.14f;  // m, half the side of what is seen
+constexpr double kLeastSlant = 0.1;
 
 struct Row {
   std::string label;
   SceneDef def;
 };
 
+uint32_t last_frame(const CompareOptions& options) { return options.first + options.every * (options.columns - 1); }
+
 std::vector<Row> read_rows(const pleat_api& api, const CompareOptions& options) {
   std::vector<Row> rows;
   for (const std::string& label : options.rows) {
     SceneRequest request = options.scene;
-    request.frames = options.first + options.every * (options.columns - 1);
+    request.frames = last_frame(options);
     for (size_t begin = 0; begin <= label.size();) {
       const size_t end = std::min(label.find(',', begin), label.size());
       request.settings.push_back(label.substr(begin, end - begin));
@@ -43,13 +46,29 @@ std::vector<std::unique_ptr<Scene>> start(const pleat_api& api, const std::vecto
 
 /// Calls `see(column)` in each frame shown.
 template <class See>
-void play(const CompareOptions& options, std::vector<std::unique_ptr<Scene>>& scenes, See see) {
+void play(const CompareOptions& options, std::vector<std::unique_ptr<Scene>>& scenes, const char* what, See see) {
+  Progress progress(what, last_frame(options));
   for (uint32_t column = 0; column < options.columns; ++column) {
     const uint32_t frame = options.first + column * options.every;
-    for (auto& scene : scenes) {
-      while (scene->frame() < frame) scene->advance();
+    while (scenes[0]->frame() < frame) {
+      for (auto& scene : scenes) scene->advance();
+      progress.step();
     }
     see(column);
+  }
+}
+
+/// Cells are drawn at twice their size.
+void check_size(const CompareOptions& options) {
+  const int most = kMostDrawn / 2, columns = options.close_up ? int(options.rows.size()) : int(options.columns);
+  const int rows = options.close_up ? 1 : int(options.rows.size());
+  if (options.size.width > most || options.size.height > most) {
+    throw InputError("--size", "should be at most " + std::to_string(most) + "x" + std::to_string(most));
+  }
+  const auto [width, height] = sheet_size(rows * columns, columns, options.size.width, options.size.height);
+  if (width > kMostPixels || height > kMostPixels) {
+    throw InputError("--size", "makes a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                                   " pixels, at most " + std::to_string(kMostPixels) + " are possible");
   }
 }
 
@@ -78,6 +97,7 @@ void look_for_difference(const Scene& a, const Scene& b, uint32_t column, Differ
 
 void compare(const pleat_api& api, const CompareOptions& options) {
   if (options.close_up && options.rows.size() < 2) throw InputError("--close-up", "two rows should be given");
+  check_size(options);
   std::vector<Row> rows = read_rows(api, options);
   OutputFile out(options.out);  // what cannot be written is known before the long work
 
@@ -85,17 +105,19 @@ void compare(const pleat_api& api, const CompareOptions& options) {
   Difference difference;
   {
     std::vector<std::unique_ptr<Scene>> scenes = start(api, rows);
-    play(options, scenes, [&](uint32_t column) {
+    play(options, scenes, "looking, frame", [&](uint32_t column) {
       for (auto& scene : scenes) box.extend(cloth_box(*scene));
       if (options.close_up) look_for_difference(*scenes[0], *scenes[1], column, difference);
     });
   }
   if (options.close_up) {
+    if (difference.distance == 0.0f) throw InputError("--close-up", "the first two rows look the same in all frames");
     std::printf("rows differ most in frame %u: by %.1f mm\n", options.first + difference.column * options.every,
                 1e3 * double(difference.distance));
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(double(kCloseUp));
     box = Eigen::AlignedBox3d(difference.place - half, difference.place + half);
-    const Eigen::Vector3d along = Eigen::Vector3d::UnitY().cross(difference.normal);
+    Eigen::Vector3d along = Eigen::Vector3d::UnitY().cross(difference.normal);
+    if (along.norm() < kLeastSlant) along = Eigen::Vector3d::UnitX();  // it faces up or down
     for (Row& row : rows)
       row.def.view = difference.normal + along + Eigen::Vector3d(0, 0.3, 0);  // slanting, for relief
   }
@@ -103,7 +125,7 @@ void compare(const pleat_api& api, const CompareOptions& options) {
   std::vector<std::unique_ptr<Scene>> scenes = start(api, rows);
   std::vector<std::vector<Cell>> cells(rows.size());
   Renderer renderer(2 * options.size.width, 2 * options.size.height);
-  play(options, scenes, [&](uint32_t column) {
+  play(options, scenes, "drawing, frame", [&](uint32_t column) {
     if (options.close_up && column != difference.column) return;
     for (size_t r = 0; r < rows.size(); ++r) {
       View view(*scenes[r], box, float(options.size.width) / float(options.size.height));

@@ -31,7 +31,9 @@ PictureSize parse_size(const std::string& text) {
 void add_scene_options(CLI::App& run, SceneRequest& scene) {
   run.add_option("scene", scene.scene, "a scene of `pleat list` or the path of a JSON file, :N sets its size")
       ->capture_default_str();
-  run.add_option("--clip", scene.clip, "motion to play in place of the scene's, a BVH file")->type_name("FILE");
+  run.add_option("--clip", scene.clip, "motion to play in place of the scene's, a BVH file")
+      ->type_name("FILE")
+      ->check(pleat::demo::named());
   run.add_option("--rate", scene.rate, "frames a second")->type_name("HZ")->check(pleat::demo::between(1.0, 10000.0));
   run.add_option("--set", scene.settings, "a setting of the cloth, see `pleat list`")->type_name("KEY=VALUE");
 }
@@ -53,10 +55,13 @@ void add_run_options(CLI::App& run, RunOptions& options) {
   run.add_option_function<std::string>("--surface", setting("surface"),
                                        "flat, pn, paper, pleat (default), phong, spherigon or arc-pn");
   run.add_option_function<std::string>("--level", setting("level"), "triangles a face: fan (18) or n = 1..8 (4 n^2)");
-  run.add_option("--out", options.out, "folder for pictures")->type_name("DIR")->capture_default_str();
+  run.add_option("--out", options.out, "folder for pictures")
+      ->type_name("DIR")
+      ->check(pleat::demo::named())
+      ->capture_default_str();
   add_size_option(run, options.size, "1280x720");
   run.add_flag("!--no-render", options.render, "simulate only: no pictures");
-  run.add_option("--json", options.json, "write a report for scripts")->type_name("FILE");
+  run.add_option("--json", options.json, "write a report for scripts")->type_name("FILE")->check(pleat::demo::named());
 }
 
 void add_compare_options(CLI::App& compare, CompareOptions& options) {
@@ -69,7 +74,10 @@ void add_compare_options(CLI::App& compare, CompareOptions& options) {
   compare.add_option("--columns", options.columns, "pictures a row")->check(CLI::Range(1, 100));
   compare.add_flag("--close-up", options.close_up, "one picture a row: close to where the first two rows differ most");
   add_size_option(compare, options.size, "640x640");
-  compare.add_option("--out", options.out, "the picture")->type_name("FILE")->capture_default_str();
+  compare.add_option("--out", options.out, "the picture")
+      ->type_name("FILE")
+      ->check(pleat::demo::named())
+      ->capture_default_str();
 }
 
 int run_program(int argc, char** argv, const pleat_api& api) {

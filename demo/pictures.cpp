@@ -16,7 +16,7 @@ namespace pleat::demo {
 namespace {
 
 constexpr uint32_t kSheetCells = 12;
-constexpr int kSheetColumns = 4, kSheetWidth = 480, kStagesWidth = 640;  // pixels
+constexpr int kSheetColumns = 4, kSheetWidth = 480, kStagesWidth = 640, kStagesHeight = 4096;  // pixels
 
 template <typename... Values>
 std::string text(const char* format, Values... values) {
@@ -41,24 +41,19 @@ class StagePainter {
       : api_(api), def_(def), record_(record), size_(size), renderer_(size.width, size.height) {}
 
   Cell coarse() {
-    return paint(PLEAT_SURFACE_FLAT, text("coarse: %u triangles", record_.garment.triangles),
-                 [](View& view, Scene& scene) {
-                   Frame frame = view.bodies(scene);
-                   frame.meshes.push_back(view.coarse_cloth(scene));
-                   return frame;
-                 });
+    return paint(PLEAT_SURFACE_FLAT, text("coarse: %zu triangles", record_.cloths * record_.garment.triangles),
+                 [](View& view, Scene& scene) { return view.coarse(scene); });
   }
 
   Cell surface(uint32_t surface, const char* label) {
-    return paint(surface, text("%s: %u triangles", label, record_.cloth.drawn_triangles),
+    return paint(surface, text("%s: %zu triangles", label, record_.cloths * record_.cloth.drawn_triangles),
                  [](View& view, Scene& scene) { return view.frame(scene); });
   }
 
   Cell sticks(uint32_t surface) {
     return paint(
         surface, "normals before (yellow) and after (orange), edge length (purple)", [this](View& view, Scene& scene) {
-          Frame frame = view.bodies(scene);  // over the coarse triangles, so that no stick hides under the surface
-          frame.meshes.push_back(view.coarse_cloth(scene));
+          Frame frame = view.coarse(scene);  // not the surface, so that no stick hides under it
           scene.check(api_.world_debug_draw(scene.world(), kShownSticks, add_stick, &frame.sticks), "debug drawing");
           return frame;
         });
@@ -69,9 +64,14 @@ class StagePainter {
     SceneDef def = def_;
     def.settings.surface = surface;
     Scene scene(api_, std::move(def));
-    while (scene.frame() < record_.most_compressed_frame) scene.advance();
+    Progress progress("drawing stages, frame", record_.most_compressed_frame);
+    while (scene.frame() < record_.most_compressed_frame) {
+      scene.advance();
+      progress.step();
+    }
     View view(scene, cloth_box(scene), aspect(size_));
-    return {shrink(renderer_.draw(compose(view, scene)), std::min(size_.width, kStagesWidth)), label};
+    const int width = std::min({size_.width, kStagesWidth, size_.width * kStagesHeight / size_.height});
+    return {shrink(renderer_.draw(compose(view, scene)), width), label};
   }
 
   const pleat_api& api_;

@@ -25,7 +25,7 @@ void run(const pleat_api& api, const RunOptions& options) {
     if (api.features & PLEAT_FEATURE_SMOOTHING) draw_stages(api, def, record, options.size, *out);
     files = out->commit();
   }
-  if (json) json->commit(report_json(def, record, files).dump(2) + "\n");
+  if (json) json->commit(report_json(def, record, files));
   print_report(def, record);
   if (out) std::printf("pictures      %s (%zu files)\n", out->path().c_str(), files.size());
   if (json) std::printf("report        %s\n", options.json.c_str());

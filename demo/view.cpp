@@ -37,6 +37,13 @@ Mesh flat_mesh(std::span<const float> positions, std::span<const uint32_t> trian
   return mesh;
 }
 
+Mesh coloured(Mesh mesh, const Scene& scene, size_t cloth) {
+  const auto& colour = kCloth[scene.def().layered ? cloth % std::size(kCloth) : 0];
+  mesh.front = colour.front;
+  mesh.back = colour.back;
+  return mesh;
+}
+
 Capsule capsule_at(const CapsulePose& pose, const Eigen::Vector3f& origin) {
   return {pose.a + origin, pose.b + origin, pose.radius, kBody, pose.taper};
 }
@@ -109,20 +116,20 @@ Frame View::frame(const Scene& scene) {
   Frame frame = bodies(scene);
   for (size_t k = 0; k < surfaces_.size(); ++k) {
     read_vertices(scene, k, surfaces_[k]);
-    frame.meshes.push_back(mesh_of_surface(surfaces_[k]));
-    const auto& colour = kCloth[scene.def().layered ? k % std::size(kCloth) : 0];
-    frame.meshes.back().front = colour.front;
-    frame.meshes.back().back = colour.back;
+    frame.meshes.push_back(coloured(mesh_of_surface(surfaces_[k]), scene, k));
   }
   return frame;
 }
 
-Mesh View::coarse_cloth(const Scene& scene) const {
+Frame View::coarse(const Scene& scene) const {
+  Frame frame = bodies(scene);
   std::vector<float> particles;
-  scene.read_particles(0, particles);
-  Mesh mesh = flat_mesh(particles, scene.def().garment.triangles);
-  mesh.wire = kInk;
-  return mesh;
+  for (size_t k = 0; k < surfaces_.size(); ++k) {
+    scene.read_particles(k, particles);
+    frame.meshes.push_back(coloured(flat_mesh(particles, scene.def().garment.triangles), scene, k));
+    frame.meshes.back().wire = kInk;
+  }
+  return frame;
 }
 
 }  // namespace pleat::demo

@@ -19,9 +19,9 @@ class View {
   /// The camera keeps `box`, relative to followed(), in sight. `aspect` is width / height.
   View(const Scene& scene, const Eigen::AlignedBox3d& box, float aspect);
 
-  Frame frame(const Scene& scene);              ///< bodies and the drawn cloths
-  Frame bodies(const Scene& scene) const;       ///< bodies alone, the same camera
-  Mesh coarse_cloth(const Scene& scene) const;  ///< the first cloth's simulated triangles, their edges in ink
+  Frame frame(const Scene& scene);         ///< bodies and the drawn cloths
+  Frame bodies(const Scene& scene) const;  ///< bodies alone, the same camera
+  Frame coarse(const Scene& scene) const;  ///< bodies and the cloths' simulated triangles, their edges in ink
 
  private:
   Camera camera_;  // at the first pose

@@ -5,6 +5,10 @@
 set -euo pipefail
 gallery=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 program=$gallery/../../build/release/bin/pleat
+if [[ $# -gt 1 || ${1-} == -* ]]; then
+  echo 'Usage: demo/gallery/draw.sh [FOLDER]' >&2
+  exit 2
+fi
 to=$(realpath -- "${1:-$gallery}")
 work=$(mktemp -d)
 readonly gallery program to work

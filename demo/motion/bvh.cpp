@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <string_view>
 
+#include "demo/byte_order_mark.h"
 #include "demo/input_error.h"
 
 namespace pleat::demo {
@@ -32,8 +34,8 @@ class Text {
       rest_ = {};
       return false;
     }
-    ++line_number_;
     rest_ = line_;
+    if (++line_number_ == 1 && rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
     return true;
   }
 
@@ -80,6 +82,8 @@ class Text {
     constexpr std::size_t kLongest = 40;
     std::string text(1, '\'');
     text += word.substr(0, kLongest);
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return std::iscntrl(c); }, '?');
     return text += word.size() > kLongest ? "...'" : "'";
   }
 

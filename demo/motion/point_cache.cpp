@@ -15,6 +15,7 @@ static_assert(std::endian::native == std::endian::little, "the numbers are read 
 
 constexpr char kMagic[12] = "POINTCACHE2";
 constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 28;
+constexpr std::size_t kMostAtOnce = std::size_t{1} << 20;  // numbers
 
 struct Header {
   char magic[12];
@@ -48,10 +49,12 @@ PointCache read_point_cache(std::istream& stream, const std::string& name) {
                                std::to_string(header.points) + " points");
   }
   PointCache cache{std::size_t(header.points), std::size_t(header.samples), {}};
-  cache.positions.resize(3 * cache.points * cache.samples);
-  if (!stream.read(reinterpret_cast<char*>(cache.positions.data()),
-                   std::streamsize(cache.positions.size() * sizeof(float)))) {
-    throw InputError(name, "is cut short");
+  for (std::size_t left = 3 * cache.points * cache.samples; left > 0;) {  // not all at once: the header may lie
+    const std::size_t count = std::min(left, kMostAtOnce), before = cache.positions.size();
+    cache.positions.resize(before + count);
+    if (!stream.read(reinterpret_cast<char*>(cache.positions.data() + before), std::streamsize(count * sizeof(float))))
+      throw InputError(name, "is cut short");
+    left -= count;
   }
   const auto bad = std::ranges::find_if(cache.positions, [](float x) { return !std::isfinite(x); });
   if (bad != cache.positions.end()) {

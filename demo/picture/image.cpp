@@ -38,10 +38,9 @@ std::string write_file(const std::filesystem::path& path, const std::string& byt
 }  // namespace
 
 Image make_image(int width, int height, std::uint32_t rgba) {
-  constexpr int kMaxSize = 16384;
-  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize) {
+  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels) {
     throw std::invalid_argument("image size " + std::to_string(width) + "x" + std::to_string(height) +
-                                " is not within 1.." + std::to_string(kMaxSize));
+                                " is not within 1.." + std::to_string(kMostPixels));
   }
   Image image{width, height, {}};
   image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

@@ -22,7 +22,9 @@ struct Image {
   }
 };
 
-/// An image of one colour, 0xRRGGBBAA. Errors: std::invalid_argument unless both sizes are in 1..16384.
+inline constexpr int kMostPixels = 16384;  ///< along a side
+
+/// An image of one colour, 0xRRGGBBAA. Errors: std::invalid_argument unless both sizes are in 1..kMostPixels.
 Image make_image(int width, int height, std::uint32_t rgba);
 
 enum class PngEffort {

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "demo/picture/renderer.h"
+
 namespace pleat::demo {
 namespace {
 
@@ -62,10 +64,9 @@ struct Offscreen::Context {
 };
 
 Offscreen::Offscreen(int width, int height) : width_(width), height_(height) {
-  constexpr int kMaxSize = 8192;
-  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize) {
+  if (width < 1 || height < 1 || width > kMostDrawn || height > kMostDrawn) {
     throw std::invalid_argument("picture size " + std::to_string(width) + "x" + std::to_string(height) +
-                                " is not within 1.." + std::to_string(kMaxSize));
+                                " is not within 1.." + std::to_string(kMostDrawn));
   }
   context_ = std::make_unique<Context>();
   begin();

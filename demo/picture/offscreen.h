@@ -12,7 +12,7 @@ namespace pleat::demo {
 class Offscreen {
  public:
   /// Errors: std::runtime_error when no context or picture can be had; std::invalid_argument for a size
-  /// outside 1..8192.
+  /// outside 1..kMostDrawn.
   Offscreen(int width, int height);
   ~Offscreen();
 

@@ -7,11 +7,13 @@
 
 namespace pleat::demo {
 
+inline constexpr int kMostDrawn = 8192;  ///< pixels along a side
+
 /// Draws frames of one size in software, without a display: a technical illustration of cloth, bodies and sticks, lit
 /// by a key light over the viewer's left shoulder, with soft shadows, on a light floor.
 class Renderer {
  public:
-  /// Errors: std::runtime_error when OpenGL cannot be had; std::invalid_argument for a size outside 1..8192.
+  /// Errors: std::runtime_error when OpenGL cannot be had; std::invalid_argument for a size outside 1..kMostDrawn.
   Renderer(int width, int height);
   ~Renderer();
 

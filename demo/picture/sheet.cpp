@@ -93,6 +93,12 @@ Image shrink(const Image& image, int width) {
   return small;
 }
 
+SheetSize sheet_size(int count, int columns, int width, int height) {
+  columns = std::min(columns, count);
+  const int rows = (count + columns - 1) / columns;
+  return {kMargin + columns * (width + kMargin), kMargin + rows * (height + kMargin + 2 * kLabelHeight)};
+}
+
 Image contact_sheet(const std::vector<Cell>& cells, int columns) {
   if (cells.empty() || columns < 1) throw std::invalid_argument("a contact sheet needs a picture and a column");
   const Image& first = cells.front().image;
@@ -103,9 +109,9 @@ Image contact_sheet(const std::vector<Cell>& cells, int columns) {
   }
   const int count = static_cast<int>(cells.size());
   columns = std::min(columns, count);
-  const int rows = (count + columns - 1) / columns;
   const int step_x = first.width + kMargin, step_y = first.height + kMargin + 2 * kLabelHeight;
-  Image sheet = make_image(kMargin + columns * step_x, kMargin + rows * step_y, kPaper);
+  const SheetSize size = sheet_size(count, columns, first.width, first.height);
+  Image sheet = make_image(size.width, size.height, kPaper);
   for (int i = 0; i < count; ++i) {
     const Cell& cell = cells[static_cast<std::size_t>(i)];
     const int left = kMargin + i % columns * step_x, top = kMargin + i / columns * step_y;

@@ -16,6 +16,13 @@ struct Cell {
   std::string label;  // one line below the picture; ASCII
 };
 
+struct SheetSize {
+  int width, height;  // pixels
+};
+
+/// Of a contact sheet of `count` pictures of this size in rows of `columns`.
+SheetSize sheet_size(int count, int columns, int width, int height);
+
 /// Pictures in rows of `columns`, from the top left, each with its label, on white.
 /// Errors: std::invalid_argument when there is no cell, no column, or pictures differ in size.
 Image contact_sheet(const std::vector<Cell>& cells, int columns);

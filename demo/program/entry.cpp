@@ -1,5 +1,6 @@
 #include "demo/program/entry.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -19,7 +20,10 @@ const pleat_api& library() {
 int run_main(const char* program, const std::function<int()>& body) {
   try {
     catch_interrupt();
-    return body();
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that has left does not keep files from being finished
+    const int status = body();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::runtime_error("stdout: cannot be written");
+    return status;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", program, error.what());
     return kBadInput;

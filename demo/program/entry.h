@@ -12,8 +12,8 @@ inline constexpr int kBadInput = 2, kOwnFailure = 1;  ///< exit statuses; 0 is s
 const pleat_api& library();
 
 /// What every `main` does: runs `body`, whose result is the exit status. What it throws goes to stderr behind the
-/// program's name: InputError makes the status kBadInput, any other exception kOwnFailure. Ctrl-C is caught, see
-/// catch_interrupt.
+/// program's name: InputError makes the status kBadInput, any other exception and a stdout that cannot be written
+/// kOwnFailure. Ctrl-C is caught, see catch_interrupt.
 int run_main(const char* program, const std::function<int()>& body);
 
 }  // namespace pleat::demo

@@ -1,6 +1,5 @@
 #include "demo/program/options.h"
 
-#include <cassert>
 #include <sstream>
 
 #include "demo/program/entry.h"
@@ -27,16 +26,15 @@ CLI::Validator between(double least, double most) {
   return CLI::Validator(check, "in [" + bounds.str() + "]");
 }
 
+CLI::Validator named() {
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "should not be empty" : ""; }, "");
+}
+
 OutputOption::OutputOption(CLI::App& app, const char* name, const char* about)
-    : option_(app.add_option(name, path_, about)->type_name("FILE")) {}
+    : option_(app.add_option(name, path_, about)->type_name("FILE")->check(named())) {}
 
 void OutputOption::open() {
   if (!path_.empty()) file_.emplace(path_);
-}
-
-void OutputOption::commit(const std::string& text) {
-  assert(file_ || path_.empty());
-  if (file_) file_->commit(text);
 }
 
 }  // namespace pleat::demo

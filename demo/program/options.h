@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cassert>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv);
 /// A finite number within these bounds (CLI::Range lets nan pass).
 CLI::Validator between(double least, double most);
 
+/// Not empty: the name of a file or folder.
+CLI::Validator named();
+
 /// An option that names a file to write, as --json FILE.
 class OutputOption {
  public:
@@ -28,7 +32,10 @@ class OutputOption {
   void open();
   explicit operator bool() const { return file_.has_value(); }
   /// Nothing where the option was not given.
-  void commit(const std::string& text);
+  void commit(const auto& text_or_json) {
+    assert(file_ || path_.empty());
+    if (file_) file_->commit(text_or_json);
+  }
 
  private:
   std::filesystem::path path_;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -21,6 +22,11 @@ constexpr const char* kList = "pleat_run.txt";
 constexpr const char* kListHead = "Written by `pleat run`, which replaces these files when it writes here again:";
 
 std::string part_name(const std::string& name) { return "." + name + ".part" + std::to_string(getpid()); }
+
+/// Of a name that the file system does not take, or a folder that may not be looked into.
+InputError not_writable(const fs::filesystem_error& error) {
+  return {error.path1().string(), "cannot be written: " + error.code().message()};
+}
 
 /// What is open already, as /dev/stdout: to be written to as it is, wherever it leads.
 bool is_open(const fs::path& path) {
@@ -58,7 +64,7 @@ std::set<std::string> listed(const fs::path& folder) {
 
 }  // namespace
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+OutputFile::OutputFile(fs::path path) try : path_(std::move(path)) {
   if (path_.filename().empty() || fs::is_directory(path_)) throw InputError(path_.string(), "is a folder, not a file");
   bool writable = false;
   if (fs::exists(path_) && (!fs::is_regular_file(path_) || is_open(path_))) {
@@ -69,6 +75,8 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
     writable = bool(std::ofstream(part_));
   }
   if (!writable) throw InputError(path_.string(), "cannot be written");
+} catch (const fs::filesystem_error& error) {
+  throw not_writable(error);
 }
 
 OutputFile::~OutputFile() {
@@ -85,7 +93,11 @@ void OutputFile::commit(const std::string& bytes) {
   if (!part_.empty()) fs::rename(part_, path_);
 }
 
-OutputFolder::OutputFolder(fs::path folder) : folder_(fs::absolute(std::move(folder)).lexically_normal()) {
+void OutputFile::commit(const nlohmann::ordered_json& json) {
+  commit(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+OutputFolder::OutputFolder(fs::path folder) try : folder_(fs::absolute(std::move(folder)).lexically_normal()) {
   if (folder_.filename().empty()) folder_ = folder_.parent_path();
   if (fs::is_directory(folder_)) earlier();  // for what it refuses
   for (fs::path at = folder_; !fs::exists(at) && at.has_relative_path(); at = at.parent_path()) made_ = at;
@@ -94,6 +106,8 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(fs::absolute(std::move(fol
   fs::remove_all(part_, error);  // of a run that was ended, with the same number
   fs::create_directories(part_, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
+} catch (const fs::filesystem_error& error) {
+  throw not_writable(error);
 }
 
 OutputFolder::~OutputFolder() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class OutputFile {
 
   /// Throws std::runtime_error when the disk does not take it.
   void commit(const std::string& bytes);
+  /// As text; bytes of names that are no UTF-8, which JSON cannot hold, are replaced by U+FFFD.
+  void commit(const nlohmann::ordered_json& json);
 
  private:
   std::filesystem::path path_, part_;  // part_ empty: path_ is written into

@@ -14,7 +14,12 @@ volatile std::sig_atomic_t interrupted = 0;
 }  // namespace
 
 void catch_interrupt() {
-  std::signal(SIGINT, [](int) { interrupted = 1; });
+  for (const int number : {SIGINT, SIGTERM}) {
+    std::signal(number, [](int caught) {
+      interrupted = 1;
+      std::signal(caught, SIG_DFL);
+    });
+  }
 }
 
 Progress::Progress(std::string what, uint32_t total)

@@ -15,7 +15,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more unit is done. Throws std::runtime_error after Ctrl-C, so that what was begun is cleaned up.
+  /// One more unit is done. Throws std::runtime_error after what catch_interrupt caught, so that what was begun is
+  /// cleaned up.
   void step();
 
  private:
@@ -25,7 +26,7 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// From now on Ctrl-C ends work at its next Progress::step.
+/// From now on Ctrl-C or SIGTERM ends work at its next Progress::step, and a second one at once.
 void catch_interrupt();
 
 }  // namespace pleat::demo

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "demo/program/progress.h"
+
 namespace pleat::demo {
 namespace {
 
@@ -97,7 +99,11 @@ void SceneQuality::add_frame(const RunningScene& scene, std::span<const DrawnSur
 
 void SceneQuality::measure_rest(RunningScene& scene) {
   const long hold = std::lround(kHold * scene.def().rate), watch = std::lround(kWatch * scene.def().rate);
-  for (long frame = 0; frame < hold; ++frame) scene.hold();
+  Progress progress("coming to rest, frame", uint32_t(hold + watch));
+  for (long frame = 0; frame < hold; ++frame) {
+    scene.hold();
+    progress.step();
+  }
   std::vector<std::vector<float>> before(scene.copies());
   for (size_t k = 0; k < before.size(); ++k) scene.read_particles(k, before[k]);
   for (long frame = 0; frame < watch; ++frame) {
@@ -107,6 +113,7 @@ void SceneQuality::measure_rest(RunningScene& scene) {
       meter_.add_rest_motion(mesh_, before[k], particles_, 1.0 / scene.def().rate);
       before[k].swap(particles_);
     }
+    progress.step();
   }
 }
 

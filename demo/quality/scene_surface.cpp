@@ -93,7 +93,7 @@ SurfaceMesh surface_mesh(const pleat_api& api, const SceneDef& def) {
   return mesh;
 }
 
-SceneSurface measure_surface(const pleat_api& api, const SceneDef& def) {
+SceneSurface measure_surface(const pleat_api& api, const SceneDef& def, const std::function<void()>& step) {
   const SurfaceMesh mesh = surface_mesh(api, def);
   Scene scene(api, def);
   DrawnSurface drawn = make_surface(scene, 0);
@@ -108,6 +108,7 @@ SceneSurface measure_surface(const pleat_api& api, const SceneDef& def) {
   while (scene.frame() < def.frames) {
     scene.advance();
     watch(moving);
+    step();
   }
   if (!def.motion) return {moving.result(), std::nullopt};
 

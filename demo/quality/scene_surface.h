@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "demo/quality/surface_motion.h"
@@ -17,7 +18,7 @@ struct SceneSurface {
 /// flat, as it was cut. At rest it is drawn with PN triangles, for round garments are round at rest. Throws as Scene.
 SurfaceMesh surface_mesh(const pleat_api& api, const SceneDef& def);
 
-/// Runs the scene. Throws as Scene.
-SceneSurface measure_surface(const pleat_api& api, const SceneDef& def);
+/// Runs the scene and calls `step` after each of its frames. Throws as Scene, and as `step`.
+SceneSurface measure_surface(const pleat_api& api, const SceneDef& def, const std::function<void()>& step);
 
 }  // namespace pleat::demo

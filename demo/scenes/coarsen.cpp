@@ -30,7 +30,7 @@ class Coarsener {
     for (const Corners& t : triangles_) {
       for (size_t k = 0; k < 3; ++k) file(std::minmax(t[k], t[(k + 1) % 3]));
     }
-    left_ = points_.size();
+    left_ = size_t(std::ranges::count_if(around_, [](const auto& triangles) { return !triangles.empty(); }));
   }
 
   void run(size_t vertices) {
@@ -93,7 +93,8 @@ class Coarsener {
     std::vector<uint32_t> common;
     std::ranges::set_intersection(neighbours(a), neighbours(b), std::back_inserter(common));
     if (common.size() != sides || sides > 2) return false;
-    if (sides == 2 && on_border(a) && on_border(b)) return false;  // it would pinch the surface together
+    if (around_[a].size() == sides && around_[b].size() == sides) return false;  // neither would keep a triangle
+    if (sides == 2 && on_border(a) && on_border(b)) return false;                // it would pinch the surface together
     if (sides == 2 && neighbours(a).size() == 3 && neighbours(b).size() == 3) return false;  // a tetrahedron
     const Vector3d to = target(edge);
     for (const uint32_t v : {a, b}) {

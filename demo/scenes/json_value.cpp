@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "demo/input_error.h"
 
 namespace pleat::demo {
 namespace {
+
+constexpr int kDeepest = 64;  // objects and arrays in each other
 
 std::string short_number(double value) {
   std::ostringstream out;
@@ -33,14 +36,29 @@ std::string join(const std::vector<std::string>& list) {
 }
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
+  std::istringstream stream(text);
+  const auto line_read = [&] {  // of what was just read, which the parser may be a character past
+    const auto read = std::max<std::streamoff>(1, stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));
+    return size_t(1 + std::count(text.begin(), text.begin() + read - 1, '\n'));
+  };
+  std::vector<std::set<std::string>> open;  // the keys so far of each object that is open, by depth
+  const auto check = [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if (depth > kDeepest)
+      throw InputError(name, line_read(), "is nested more than " + std::to_string(kDeepest) + " deep");
+    if (event == Event::object_start) open.resize(size_t(depth)), open.emplace_back();
+    if (event == Event::key && !open[size_t(depth) - 1].insert(value.get<std::string>()).second)
+      throw InputError(name, line_read(), "the key `" + value.get<std::string>() + "` stands here a second time");
+    return true;
+  };
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(stream, check);
   } catch (const nlohmann::json::parse_error& error) {
     const size_t end = std::min(text.size(), error.byte);
     const auto line = 1 + std::count(text.begin(), text.begin() + ptrdiff_t(end), '\n');
     throw InputError(name, size_t(line), "is not JSON here" + std::string(end >= text.size() ? " (cut short?)" : ""));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(name, std::string("is not JSON: ") + error.what());
+    throw InputError(name, line_read(), std::string("is not JSON: ") + error.what());
   }
 }
 

@@ -44,7 +44,8 @@ class JsonValue {
   std::string pointer_;
 };
 
-/// Parses a whole file; the error names the line. `name` stands for the file.
+/// Parses a whole file; what is no JSON, a key twice in an object or nesting deeper than 64 is an InputError that names
+/// the line. `name` stands for the file.
 nlohmann::json parse_json(const std::string& text, const std::string& name);
 
 /// "a, b, c".

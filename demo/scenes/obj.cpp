@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "demo/byte_order_mark.h"
 #include "demo/input_error.h"
 #include "engine/pleat.h"
 
@@ -32,7 +33,7 @@ class ObjReader {
 
   TriangleMesh read(std::istream& stream) {
     for (std::string line; std::getline(stream, line);) {
-      ++line_;
+      if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
       read_line(line);
     }
     if (stream.bad()) throw InputError(name_, line_, "cannot be read further");
@@ -60,7 +61,7 @@ class ObjReader {
   }
 
   float read_number(std::string_view word, const char* of_what) const {
-    float value = 0.0f;
+    double value = 0.0;  // so that what is next to nothing as a float is 0
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) fail(std::string("a ") + of_what + " lacks a number: is the file cut short?");
     if (error == std::errc::result_out_of_range && end == word.data() + word.size()) fail(too_large(of_what, word));
@@ -68,7 +69,8 @@ class ObjReader {
       fail(std::string("a ") + of_what + " has `" + std::string(word) + "` where a number should be");
     }
     if (!std::isfinite(value)) fail(std::string("a ") + of_what + " is not finite: `" + std::string(word) + "`");
-    return value;
+    if (!std::isfinite(float(value))) fail(too_large(of_what, word));
+    return float(value);
   }
 
   static std::string too_large(const char* of_what, std::string_view word) {

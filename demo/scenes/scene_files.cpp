@@ -41,7 +41,8 @@ SceneFile::SceneFile(const std::string& name_or_path) {
     text_ = shipped->bytes;
     return;
   }
-  if (!std::filesystem::exists(name_or_path)) {
+  std::error_code ignored;  // such as a name that is too long
+  if (!std::filesystem::exists(name_or_path, ignored)) {
     throw InputError(name_or_path,
                      "no such scene; there are " + join(shipped_scenes()) + ", or the path of a JSON file");
   }

@@ -28,7 +28,8 @@ struct SizedName {
 
 SizedName split_size(const std::string& name) {
   const size_t colon = name.rfind(':');
-  if (colon == std::string::npos || std::filesystem::exists(name)) return {name, std::nullopt};
+  std::error_code ignored;
+  if (colon == std::string::npos || std::filesystem::exists(name, ignored)) return {name, std::nullopt};
   uint32_t size = 0;
   const char *first = name.data() + colon + 1, *last = name.data() + name.size();
   const auto [end, error] = std::from_chars(first, last, size);
@@ -82,6 +83,14 @@ void read_fabric(const JsonValue& fabric, const pleat_api& api, pleat_cloth_sett
     fabric.fail("unknown fabric `" + fabric.text() + "`; known are " + join(known));
   }
   api.fabric_apply(word->value, &into);
+}
+
+/// A camera whose upright is y cannot look along it.
+Vector3d read_view(const JsonValue& view) {
+  const Vector3d towards = view.vector(-1.0, 1.0);
+  if (towards.cross(Vector3d::UnitY()).norm() < 1e-3 * std::max(1e-3, towards.norm()))
+    view.fail("should not be zero, nor straight up or down");
+  return towards;
 }
 
 /// Copies stand in rows of `columns`, `spacing` apart in x and z.
@@ -142,13 +151,20 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (!def.body.positions.empty()) def.body.positions = def.motion(-motion.settle).vertices;
   def.settle = motion.settle;
   def.ground = motion.ground;
-  if (motion.duration) def.frames = std::max(1u, uint32_t(*motion.duration * def.rate));
+  if (motion.duration) {
+    const double frames = *motion.duration * def.rate;
+    if (frames > kMostFrames && !request.frames) {
+      throw InputError(request.clip.empty() ? file.name() : request.clip,
+                       "the motion takes more than " + std::to_string(kMostFrames) + " frames; --frames says how many");
+    }
+    def.frames = uint32_t(std::clamp(frames, 1.0, double(kMostFrames)));
+  }
   if (const auto frames = scene.find("frames"); frames && request.clip.empty())
     def.frames = frames->integer(1, kMostFrames);
   if (request.frames) def.frames = *request.frames;
   if (const auto crossings = scene.find("crossings")) def.crossings = crossings->boolean();
   if (const auto ground = scene.find("ground")) def.ground = ground->number(-1e4, 1e4);
-  if (const auto view = scene.find("view")) def.view = view->vector(-1.0, 1.0);
+  if (const auto view = scene.find("view")) def.view = read_view(*view);
 
   std::optional<Wearer> wearer;
   if (motion.figure) wearer = Wearer{&*motion.figure, motion.motion(-motion.settle).hips};

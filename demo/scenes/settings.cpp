@@ -68,6 +68,8 @@ template <typename Number>
 Number parse(std::string_view name, std::string_view text, const char* kind) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size())
+    throw std::invalid_argument("`" + std::string(name) + "` is out of range: `" + std::string(text) + "`");
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(double(value))) {
     throw std::invalid_argument("`" + std::string(name) + "` should be " + kind + ", is `" + std::string(text) + "`");
   }

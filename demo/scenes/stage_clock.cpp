@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace pleat::demo {
 
@@ -41,6 +42,22 @@ void StageClock::end_frame() {
     running_[i].sum = 0.0;
   }
   ++frames_;
+}
+
+void align(std::vector<std::vector<StageClock::Stage>>& runs) {
+  std::vector<StageClock::Stage> idle;  // every stage of any run
+  for (const auto& run : runs) {
+    for (const StageClock::Stage& stage : run) {
+      if (std::ranges::find(idle, stage.name, &StageClock::Stage::name) == idle.end())
+        idle.push_back({stage.name, std::vector<double>(stage.frames.size(), 0.0)});
+    }
+  }
+  for (auto& run : runs) {
+    std::vector<StageClock::Stage> all = idle;
+    for (StageClock::Stage& stage : run)
+      *std::ranges::find(all, stage.name, &StageClock::Stage::name) = std::move(stage);
+    run = std::move(all);
+  }
 }
 
 }  // namespace pleat::demo

@@ -40,4 +40,8 @@ class StageClock {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// Gives all runs of a scene, of the same number of frames, the same stages in the same order: one that was not in a
+/// run's plan, as a budget may decide, took nothing there.
+void align(std::vector<std::vector<StageClock::Stage>>& runs);
+
 }  // namespace pleat::demo

@@ -87,6 +87,7 @@ TEST(Bvh, AcceptsWhatWritersDo) {
   EXPECT_EQ(read(kValid.substr(0, kValid.size() - 1)).frame_count(), 2u) << "no newline at the end";
   EXPECT_EQ(read(changed("Frames: 2", "Frames:\t2")).frame_count(), 2u);
   EXPECT_EQ(read(changed("ROOT hips\n{", "ROOT hips {")).frame_count(), 2u);
+  EXPECT_EQ(read("\xEF\xBB\xBF" + kValid).frames, read(kValid).frames) << "a byte order mark";
   EXPECT_EQ(read(changed("CHANNELS 0\n", "\n")).frame_count(), 2u) << "a joint may leave CHANNELS out";
 }
 
@@ -124,6 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Broken{"Empty", "", 0, "the file ends where HIERARCHY should be"},
         Broken{"OtherFormat", "glTF\x02", 1, "expected HIERARCHY, found 'glTF"},
+        Broken{"ControlCharacters", "HIER\x1b[2J", 1, "found 'HIER?[2J'"},
         Broken{"NoRoot", changed("ROOT", "JOINT"), 2, "expected ROOT, found 'JOINT'"},
         Broken{"NoJoints", "HIERARCHY\nMOTION\nFrames: 1\nFrame Time: 1\n\n", 2, "expected ROOT, found 'MOTION'"},
         Broken{"NoOpeningBrace", changed("spine\n  {", "spine\n"), 8, "expected {, found 'OFFSET'"},

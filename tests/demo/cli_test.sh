@@ -35,6 +35,7 @@ garment='"garment": {"grid": {"rows": 3, "columns": 3}}'
 echo "{$garment, \"gravitas\": 1}" >unknown_key.json
 echo "{$garment, \"rate\": " >truncated.json
 echo '[]' >array.json
+echo "{$garment, \"view\": [0, 1, 0]}" >upright.json
 echo '{"garment": {"grid": {"rows": 0, "columns": 3}}}' >nothing.json
 echo '{"garment": {"grid": {"rows": 2000, "columns": 2500}}}' >ten_million.json
 echo '{"garment": {"obj": {"file": "empty.obj"}}}' >empty_garment.json
@@ -70,6 +71,18 @@ refused '--rate' run hanging_square:3 --rate inf --no-render
 refused 'bogus' bogus
 refused 'command is missing'
 refused 'an array' run array.json
+refused '--json' run hanging_square:3 --frames 1 --no-render --json ''
+refused '--out' run hanging_square:3 --frames 1 --out ''
+refused '--clip' run --frames 1 --no-render --clip ''
+long=$(printf 'a%.0s' {1..300})
+refused 'name too long' run hanging_square:3 --frames 1 --out "$long"
+refused 'name too long' run hanging_square:3 --frames 1 --no-render --json "$long"
+refused 'no such scene' run "$long"
+refused '/view' run upright.json --frames 1
+square=(compare hanging_square:3 --row level=1 --row "level=1,stiffness=1")
+refused '--size' "${square[@]}" --columns 1 --size 5000x5000
+refused '--size' "${square[@]}" --columns 100 --size 200x200
+refused 'look the same' compare hanging_square:3 --row level=1 --row level=1 --columns 2 --close-up
 refused 'no such scene' explain no_such_scene
 [ "$(cat earlier/frame_0000.png)" = kept ] || fail 'an earlier result was touched'
 
@@ -136,6 +149,36 @@ grep -qF '"frames": 1' read.json || fail 'the reader of a pipe got nothing'
 ln -s /dev/full full && "$pleat" run "${one_frame[@]}" --json full >/dev/null 2>full.stderr
 [ $? -eq 1 ] && grep -q 'full: cannot be written' full.stderr || fail "a full disk was not told: $(cat full.stderr)"
 [ -c /dev/full ] && [ -L full ] || fail 'a device was replaced'
+
+# Neither narrow pictures, nor cloth that faces straight up, nor a name that is no UTF-8 fail after the work.
+accepted run hanging_square:3 --frames 1 --size 16x8192 --out narrow
+accepted compare drape_sphere:4 --row air_damping=0 --row air_damping=5 --close-up --columns 3 --size 32x32
+accepted run "${one_frame[@]}" --json $'\xff.json'
+echo "{$garment}" >hanging.json && cp hanging.json $'\xff-scene.json'
+accepted run $'\xff-scene.json' --frames 1 --no-render --json report.json
+grep -qF '"frames": 1' report.json || fail 'a scene whose name is no UTF-8 has no report'
+
+# A stdout that takes nothing is told, and keeps no file from being written.
+for command in '--help' list 'explain hanging_square:3'; do
+  # shellcheck disable=SC2086
+  "$pleat" $command >/dev/full 2>full.stderr
+  [ $? -eq 1 ] && grep -q 'cannot be written' full.stderr || fail "pleat $command does not tell that stdout is full"
+done
+"$pleat" run "${one_frame[@]}" --json unread.json 2>/dev/null | true
+[ -s unread.json ] || fail 'without a reader of stdout no report was written'
+
+# Ctrl-C and SIGTERM end a run and leave nothing behind.
+for signal in INT TERM; do
+  before=$(find . | sort)
+  for command in 'run hanging_square:16 --frames 100000 --out interrupted' 'run hanging_square:64 --frames 1 --out interrupted' \
+    'compare hanging_square:16 --row level=1 --columns 9 --every 10000 --size 64x64 --out interrupted.png'; do
+    # shellcheck disable=SC2086
+    timeout --signal "$signal" --kill-after 10 0.5 "$pleat" $command >/dev/null 2>"$work.stderr"
+    [ $? -eq 124 ] && grep -q 'interrupted' "$work.stderr" || fail "pleat $command does not end at SIG$signal"
+    [ "$(find . | sort)" = "$before" ] || fail "pleat $command left something behind at SIG$signal"
+  done
+done
+rm -f "$work.stderr"
 
 if [ "$failures" -gt 0 ]; then
   echo "$failures checks failed" >&2

@@ -61,6 +61,17 @@ TEST(Coarsen, StopsWhereTheSurfaceWouldChangeItsKind) {
   EXPECT_EQ(coarsen(grid(5), 1000).vertex_count(), 25u);
 }
 
+TEST(Coarsen, LeavesATriangleOfEachPiece) {
+  TriangleMesh pieces = grid(3);
+  pieces.positions.insert(pieces.positions.end(), {9, 9, 9});  // of no triangle
+  for (const float x : grid(3).positions) pieces.positions.push_back(x + 5.0f);
+  for (const uint32_t v : grid(3).triangles) pieces.triangles.push_back(v + 10);
+  const TriangleMesh least = coarsen(pieces, 3);
+  EXPECT_EQ(least.triangle_count(), 2u);
+  EXPECT_EQ(least.vertex_count(), 6u);
+  EXPECT_EQ(coarsen(pieces, 12).vertex_count(), 12u);
+}
+
 /// An open tube of radius 0.1 m, 0.3 m long: `around` vertices in each of `rings`.
 TriangleMesh tube(uint32_t around, uint32_t rings) {
   TriangleMesh mesh;

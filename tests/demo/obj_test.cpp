@@ -45,6 +45,11 @@ TEST(Obj, ReadsEveryFormOfACorner) {
   EXPECT_EQ(read(head + "f 1/2 2/3 3/1\n").uvs, (std::vector<float>{1, 0, 0, 1, 0, 0}));
 }
 
+TEST(Obj, ByteOrderMarkAndNumbersTooSmallForAFloatAreNoMistakes) {
+  const TriangleMesh mesh = read("\xEF\xBB\xBFv 0 0 1e-60\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.positions, (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}));
+}
+
 TEST(Obj, PolygonsBecomeFansAndGroupsOneMesh) {
   const TriangleMesh mesh = read(kThree + "v 1 1 0\nv 2 2 0\ng a\nf 1 2 4 3\ng b\nf 2 5 4\n");
   EXPECT_EQ(mesh.triangles, (Indices{0, 1, 3, 0, 3, 2, 1, 4, 3}));

@@ -26,6 +26,12 @@ SceneDef load(const std::string& name) {
   return load_scene(api(), request);
 }
 
+std::string load_shipped(const std::string& file) {
+  std::ostringstream text;
+  text << SceneFile("kick").open(file)->rdbuf();
+  return text.str();
+}
+
 /// A scene file that lives as long as the test.
 class SceneText {
  public:
@@ -281,6 +287,13 @@ TEST(SceneFile, RefusesBadInputAndNamesFileAndKey) {
       {"{" + kGarment + ", \"rate\": 0}", ": /rate: ", "is 0"},
       {"{" + kGarment + ", \"rate\": NaN}", ":1: ", "JSON"},
       {"{" + kGarment + ", \"rate\": 1e999}", ": ", "JSON"},
+      {"{" + kGarment + ",\n\"rate\": 1e999\n}", ":2: ", "JSON"},
+      {"{" + kGarment + ",\n\"settings\": {\"density\": 1,\n\"density\": 2}}",
+       ":3: ", "`density` stands here a second time"},
+      {"{" + kGarment + ", \"N\": 3, \"x\": " + std::string(1000000, '[') + std::string(1000000, ']') + "}",
+       ":1: ", "nested"},
+      {"{" + kGarment + ", \"view\": [0, 0, 0]}", ": /view: ", "zero"},
+      {"{" + kGarment + ", \"view\": [0, -1, 0]}", ": /view: ", "straight up or down"},
       {"{" + kGarment + ", \"frames\": 2.5}", ": /frames: ", "whole number"},
       {"{" + kGarment + ", \"frames\": -1}", ": /frames: ", "is -1"},
       {"{" + kGarment + ", \"gravity\": [0, 1]}", ": /gravity: ", "three numbers"},
@@ -348,6 +361,25 @@ TEST(SceneFile, ATruncatedClipIsRefused) {
   }
   request.scene = "skirt_kick";
   EXPECT_THROW(load_scene(api(), request), InputError) << "plays no clip";
+  std::filesystem::remove(path);
+}
+
+TEST(SceneFile, AKeyMayStandInSeveralObjects) {
+  const std::string ball = R"({"sphere": {"center": [0, 0, 0], "radius": 1}})";
+  EXPECT_EQ(SceneText("{" + kGarment + ", \"colliders\": [" + ball + ", " + ball + "]}").complaint(), "accepted");
+}
+
+TEST(SceneFile, AMotionWithoutEndIsRefusedUnlessFramesAreSaid) {
+  std::string clip(load_shipped("kick.bvh"));
+  const size_t time = clip.find("Frame Time:");
+  clip.replace(time, clip.find('\n', time) - time, "Frame Time: 1e6");
+  const std::string path = testing::TempDir() + "endless.bvh";
+  std::ofstream(path) << clip;
+  SceneRequest request;
+  request.clip = path;
+  EXPECT_THROW(load_scene(api(), request), InputError);
+  request.frames = 2;
+  EXPECT_EQ(load_scene(api(), request).frames, 2u);
   std::filesystem::remove(path);
 }
 

@@ -42,5 +42,17 @@ TEST(Settings, RefusesWhatItCannotRead) {
   }
 }
 
+TEST(Settings, ANumberOutOfRangeIsCalledThat) {
+  pleat_cloth_settings settings = defaults();
+  for (const auto& [name, value] : {std::pair{"friction", "1e99"}, {"substeps", "4294967296"}}) {
+    try {
+      set_setting(settings, name, value);
+      FAIL() << "accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("out of range"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pleat::demo

@@ -39,5 +39,21 @@ TEST(StageClock, AddsUpTheCallsOfAFrameAndKeepsTheOrder) {
   EXPECT_EQ(clock.stages()[2].frames[0], 0.0);
 }
 
+TEST(StageClock, AStageThatARunDidWithoutTookNothingThere) {
+  std::vector<std::vector<StageClock::Stage>> runs = {
+      {{"a", {1, 2}}, {"b", {3, 4}}}, {{"a", {5, 6}}, {"fade", {7, 8}}, {"b", {9, 10}}}, {{"b", {1, 1}}}};
+  align(runs);
+  const std::vector<double> b[] = {{3, 4}, {9, 10}, {1, 1}};
+  for (size_t r = 0; r < runs.size(); ++r) {
+    ASSERT_EQ(runs[r].size(), 3u);
+    EXPECT_EQ(runs[r][0].name, "a");
+    EXPECT_EQ(runs[r][1].name, "b");
+    EXPECT_EQ(runs[r][2].name, "fade");
+    EXPECT_EQ(runs[r][1].frames, b[r]);
+  }
+  EXPECT_EQ(runs[0][2].frames, (std::vector<double>{0, 0}));
+  EXPECT_EQ(runs[2][0].frames, (std::vector<double>{0, 0}));
+}
+
 }  // namespace
 }  // namespace pleat::demo

@@ -111,7 +111,9 @@ TEST(SceneSurface, ARoundSkirtIsTrueToItselfAtRest) {
   def.gravity.setZero();
   def.frames = 5;
   def.settings.surface = api.features & PLEAT_FEATURE_SMOOTHING ? PLEAT_SURFACE_PN : PLEAT_SURFACE_FLAT;
-  const SceneSurface surface = measure_surface(api, def);
+  uint32_t steps = 0;
+  const SceneSurface surface = measure_surface(api, def, [&] { ++steps; });
+  EXPECT_EQ(steps, def.frames);
   EXPECT_FALSE(surface.resting) << "no body moves";
   EXPECT_LT(surface.moving.length_rms_percent, 0.1);
   EXPECT_NEAR(surface.moving.area_worst_percent, 0.0, 0.1);
