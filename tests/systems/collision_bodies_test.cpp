@@ -27,6 +27,7 @@ CapsuleColumns random_capsules(std::size_t count, std::mt19937& random) {
     capsules.taper.push_back(i % 2 == 0 ? 0.05f : 0.0f);
     capsules.thickness.push_back(0.01f);
     capsules.friction.push_back(0.5f);
+    capsules.groups.push_back(kFirstGroup);
     capsules.enabled.push_back(i % 7 != 0);
   }
   return capsules;
@@ -201,6 +202,7 @@ TEST(ColliderMotion, ABallThatHoldsTheOtherIsAllThereIs) {
     capsules.taper.push_back(i == 0 ? 0.25f : -0.25f);
     capsules.thickness.push_back(0.0f);
     capsules.friction.push_back(1.0f);
+    capsules.groups.push_back(kFirstGroup);
     capsules.enabled.push_back(1);
   }
   CollisionBodies bodies(memory());

@@ -22,7 +22,7 @@ struct DisturbanceTest : testing::Test {
     }
     for (Column<float>* column : {&capsules.radius, &capsules.taper, &capsules.thickness}) column->resize(1);
     capsules.radius[0] = 0.1f;
-    capsules.enabled.resize(1);
+    capsules.enabled.resize(1), capsules.groups.push_back(kFirstGroup);
     capsules.enabled[0] = 1;
   }
   Disturbance around() {

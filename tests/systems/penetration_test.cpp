@@ -21,7 +21,7 @@ void add_capsule(CapsuleColumns& c, const Vec3& a, const Vec3& b, float radius, 
   const std::size_t i = c.size();
   for (Vec3Column* column : {&c.previous_a, &c.previous_b, &c.next_a, &c.next_b}) column->resize(i + 1);
   for (Column<float>* column : {&c.radius, &c.taper, &c.thickness, &c.friction}) column->resize(i + 1);
-  c.enabled.resize(i + 1);
+  c.enabled.resize(i + 1), c.groups.push_back(kFirstGroup);
   c.previous_a.view().set(i, a), c.next_a.view().set(i, a + Vec3{0, 10, 0});
   c.previous_b.view().set(i, b), c.next_b.view().set(i, b + Vec3{0, 10, 0});
   c.radius[i] = radius, c.taper[i] = taper, c.thickness[i] = 0.3f, c.enabled[i] = 1;

@@ -25,7 +25,7 @@ struct Crossing {
     }
     for (Column<float>* column : {&capsules.radius, &capsules.taper, &capsules.thickness, &capsules.friction})
       column->resize(1);
-    capsules.enabled.resize(1);
+    capsules.enabled.resize(1), capsules.groups.push_back(kFirstGroup);
     capsules.enabled[0] = 1;
     capsules.radius[0] = kRadius;
     const Vec3 half{0, 0, 0.3f};
