@@ -26,7 +26,7 @@ if [[ $1 == --update ]]; then
   shift
 fi
 readonly program=${1-}
-[[ -x $program ]] || {
+[[ -f $program && -x $program ]] || {
   echo "bench/instructions.sh: there is no program \`$program\` to run" >&2
   exit 2
 }

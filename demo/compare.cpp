@@ -13,8 +13,8 @@
 namespace pleat::demo {
 namespace {
 
-constexpr float kCloseUp = 0.14f;  // m, half the side of what is seen
-constexpr double kLeastSlant = 0.1;
+constexpr float kCloseUp = 0.14f;    // m, half the side of what is seen
+constexpr double kLeastSlant = 0.1;  // sine of the angle between a surface's normal and the vertical
 
 struct Row {
   std::string label;

@@ -56,6 +56,7 @@ PointCache read_point_cache(std::istream& stream, const std::string& name) {
       throw InputError(name, "is cut short");
     left -= count;
   }
+  cache.positions.shrink_to_fit();
   const auto bad = std::ranges::find_if(cache.positions, [](float x) { return !std::isfinite(x); });
   if (bad != cache.positions.end()) {
     const std::size_t point = std::size_t(bad - cache.positions.begin()) / 3;

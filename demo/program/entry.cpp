@@ -1,5 +1,6 @@
 #include "demo/program/entry.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -22,8 +23,10 @@ int run_main(const char* program, const std::function<int()>& body) {
     catch_interrupt();
     std::signal(SIGPIPE, SIG_IGN);  // a reader that has left does not keep files from being finished
     const int status = body();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::runtime_error("stdout: cannot be written");
-    return status;
+    errno = 0;
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+    if (errno == EPIPE) return kOwnFailure;  // whoever left needs no message
+    throw std::runtime_error("stdout: cannot be written");
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", program, error.what());
     return kBadInput;

@@ -1,5 +1,6 @@
 #include "demo/program/options.h"
 
+#include <cassert>
 #include <sstream>
 
 #include "demo/program/entry.h"
@@ -35,6 +36,16 @@ OutputOption::OutputOption(CLI::App& app, const char* name, const char* about)
 
 void OutputOption::open() {
   if (!path_.empty()) file_.emplace(path_);
+}
+
+void OutputOption::commit(const std::string& text) {
+  assert(file_ || path_.empty());
+  if (file_) file_->commit(text);
+}
+
+void OutputOption::commit(const nlohmann::ordered_json& json) {
+  assert(file_ || path_.empty());
+  if (file_) file_->commit(json);
 }
 
 }  // namespace pleat::demo

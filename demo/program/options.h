@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cassert>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,10 +31,8 @@ class OutputOption {
   void open();
   explicit operator bool() const { return file_.has_value(); }
   /// Nothing where the option was not given.
-  void commit(const auto& text_or_json) {
-    assert(file_ || path_.empty());
-    if (file_) file_->commit(text_or_json);
-  }
+  void commit(const std::string& text);
+  void commit(const nlohmann::ordered_json& json);
 
  private:
   std::filesystem::path path_;

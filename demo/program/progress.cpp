@@ -2,22 +2,30 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <stdexcept>
 
 namespace pleat::demo {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+constexpr std::int64_t kPatience = 2;  // s: one request to stop may come as two signals
+
+std::atomic<std::int64_t> interrupted_at = 0;  // s since 1970, 0: not yet
+static_assert(decltype(interrupted_at)::is_always_lock_free, "a signal's handler sets it");
 
 }  // namespace
 
 void catch_interrupt() {
   for (const int number : {SIGINT, SIGTERM}) {
     std::signal(number, [](int caught) {
-      interrupted = 1;
+      const std::int64_t now = std::time(nullptr);
+      std::int64_t first = 0;
+      if (interrupted_at.compare_exchange_strong(first, now) || now - first < kPatience) return;
       std::signal(caught, SIG_DFL);
+      std::raise(caught);
     });
   }
 }
@@ -35,7 +43,7 @@ Progress::~Progress() {
 
 void Progress::step() {
   ++done_;
-  if (interrupted) throw std::runtime_error("interrupted: nothing was kept");
+  if (interrupted_at != 0) throw std::runtime_error("interrupted: nothing was kept");
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - last_ < std::chrono::milliseconds(200)) return;
   last_ = now;

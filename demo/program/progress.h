@@ -26,7 +26,8 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// From now on Ctrl-C or SIGTERM ends work at its next Progress::step, and a second one at once.
+/// From now on Ctrl-C or SIGTERM ends work at its next Progress::step, and one that comes two seconds later or more at
+/// once.
 void catch_interrupt();
 
 }  // namespace pleat::demo

@@ -42,11 +42,14 @@ nlohmann::json parse_json(const std::string& text, const std::string& name) {
     return size_t(1 + std::count(text.begin(), text.begin() + read - 1, '\n'));
   };
   std::vector<std::set<std::string>> open;  // the keys so far of each object that is open, by depth
-  const auto check = [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
-    using Event = nlohmann::json::parse_event_t;
-    if (depth > kDeepest)
+  using Event = nlohmann::json::parse_event_t;
+  const auto check = [&](int depth, Event event, const nlohmann::json& value) {
+    if (depth >= kDeepest && (event == Event::object_start || event == Event::array_start))
       throw InputError(name, line_read(), "is nested more than " + std::to_string(kDeepest) + " deep");
-    if (event == Event::object_start) open.resize(size_t(depth)), open.emplace_back();
+    if (event == Event::object_start) {
+      open.resize(size_t(depth));
+      open.emplace_back();
+    }
     if (event == Event::key && !open[size_t(depth) - 1].insert(value.get<std::string>()).second)
       throw InputError(name, line_read(), "the key `" + value.get<std::string>() + "` stands here a second time");
     return true;

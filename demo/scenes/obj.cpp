@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -61,16 +62,19 @@ class ObjReader {
   }
 
   float read_number(std::string_view word, const char* of_what) const {
-    double value = 0.0;  // so that what is next to nothing as a float is 0
+    float value = 0.0f;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) fail(std::string("a ") + of_what + " lacks a number: is the file cut short?");
-    if (error == std::errc::result_out_of_range && end == word.data() + word.size()) fail(too_large(of_what, word));
+    if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
+      const double wide = std::strtod(std::string(word).c_str(), nullptr);  // what is next to nothing is nothing
+      if (std::abs(wide) < 1.0) return float(wide);
+      fail(too_large(of_what, word));
+    }
     if (error != std::errc() || end != word.data() + word.size()) {
       fail(std::string("a ") + of_what + " has `" + std::string(word) + "` where a number should be");
     }
     if (!std::isfinite(value)) fail(std::string("a ") + of_what + " is not finite: `" + std::string(word) + "`");
-    if (!std::isfinite(float(value))) fail(too_large(of_what, word));
-    return float(value);
+    return value;
   }
 
   static std::string too_large(const char* of_what, std::string_view word) {

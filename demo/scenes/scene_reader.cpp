@@ -151,17 +151,18 @@ SceneDef load_scene(const pleat_api& api, const SceneRequest& request) {
   if (!def.body.positions.empty()) def.body.positions = def.motion(-motion.settle).vertices;
   def.settle = motion.settle;
   def.ground = motion.ground;
-  if (motion.duration) {
-    const double frames = *motion.duration * def.rate;
-    if (frames > kMostFrames && !request.frames) {
+  std::optional<uint32_t> frames;
+  if (const auto own = scene.find("frames"); own && request.clip.empty()) frames = own->integer(1, kMostFrames);
+  if (request.frames) frames = request.frames;
+  if (!frames && motion.duration) {
+    const double all = *motion.duration * def.rate;
+    if (all > kMostFrames) {
       throw InputError(request.clip.empty() ? file.name() : request.clip,
                        "the motion takes more than " + std::to_string(kMostFrames) + " frames; --frames says how many");
     }
-    def.frames = uint32_t(std::clamp(frames, 1.0, double(kMostFrames)));
+    frames = std::max(1u, uint32_t(all));
   }
-  if (const auto frames = scene.find("frames"); frames && request.clip.empty())
-    def.frames = frames->integer(1, kMostFrames);
-  if (request.frames) def.frames = *request.frames;
+  def.frames = frames.value_or(def.frames);
   if (const auto crossings = scene.find("crossings")) def.crossings = crossings->boolean();
   if (const auto ground = scene.find("ground")) def.ground = ground->number(-1e4, 1e4);
   if (const auto view = scene.find("view")) def.view = read_view(*view);

@@ -164,8 +164,14 @@ for command in '--help' list 'explain hanging_square:3'; do
   "$pleat" $command >/dev/full 2>full.stderr
   [ $? -eq 1 ] && grep -q 'cannot be written' full.stderr || fail "pleat $command does not tell that stdout is full"
 done
-"$pleat" run "${one_frame[@]}" --json unread.json 2>/dev/null | true
+{
+  sleep 0.2  # until its reader has left
+  "$pleat" run "${one_frame[@]}" --json unread.json 2>unread.stderr
+  echo $? >unread.status
+} | true
 [ -s unread.json ] || fail 'without a reader of stdout no report was written'
+[ "$(cat unread.status)" -eq 1 ] || fail 'a reader that left is taken for one that read'
+[ -s unread.stderr ] && fail "a reader that left is complained about: $(cat unread.stderr)"
 
 # Ctrl-C and SIGTERM end a run and leave nothing behind.
 for signal in INT TERM; do
