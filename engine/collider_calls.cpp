@@ -19,6 +19,8 @@ const pleat_collider_def& default_collider() {
     d.friction = 1.0f;
     d.rotation[3] = 1.0f;
     d.groups = kFirstGroup;
+    static_assert(offsetof(pleat_collider_def, reserved) + sizeof d.reserved == sizeof d,
+                  "padding would pass for more");
     return d;
   }();
   return def;
@@ -177,6 +179,7 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     const pleat_collider_def def = read_def("def", given, default_collider());
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
     need_range("shape", def.shape, 0, PLEAT_COLLIDER_HULL);
+    need_range("reserved", def.reserved, 0, 0);
 #ifdef PLEAT_WITH_COLLISION
     const pleat_collider_settings settings{sizeof settings, def.friction, def.thickness,
                                            def.radius,      def.radius_b, def.groups};
@@ -186,7 +189,7 @@ pleat_result collider_create(pleat_world* handle, const pleat_collider_def* give
     try {
       const Handle added = add_collider(world, def);
       set_collider(world, world.colliders.back(), settings);
-      replan(world, census);
+      replan(world, census, settings.groups);
       *collider = {added.index, added.generation};
     } catch (...) {
       if (world.colliders.size() != before) remove_collider(world, static_cast<std::uint32_t>(before));
@@ -203,8 +206,10 @@ pleat_result collider_destroy(pleat_world* handle, [[maybe_unused]] pleat_collid
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
     const BodyCensus census = body_census(world);
-    remove_collider(world, need_handle("collider", world.collider_handles, collider));
-    replan(world, census);
+    const std::uint32_t position = need_handle("collider", world.collider_handles, collider);
+    const std::uint32_t groups = settings_of(world, world.colliders[position]).groups;
+    remove_collider(world, position);
+    replan(world, census, groups);
 #endif
   });
 }
@@ -215,7 +220,9 @@ pleat_result collider_set_enabled(pleat_world* handle, [[maybe_unused]] pleat_co
     [[maybe_unused]] World& world = need_world(handle);
     need_compiled(kHasCollision, "a collider", "PLEAT_COLLISION");
 #ifdef PLEAT_WITH_COLLISION
-    if (set_enabled(world, need_collider(world, collider), enabled != 0) != (enabled != 0)) wake_all(world);
+    const ColliderRecord& record = need_collider(world, collider);
+    const bool was = set_enabled(world, record, enabled != 0);
+    if (was != (enabled != 0)) wake_who_meets(world, settings_of(world, record).groups);
 #endif
   });
 }
@@ -298,7 +305,7 @@ pleat_result collider_set(pleat_world* handle, [[maybe_unused]] pleat_collider c
     const pleat_collider_settings old = settings_of(world, record), wanted = read_def("settings", settings, old);
     need_settings(wanted);
     set_collider(world, record, wanted);
-    if (!same_bytes(settings_of(world, record), old)) wake_all(world);
+    if (!same_bytes(settings_of(world, record), old)) wake_who_meets(world, old.groups | wanted.groups);
 #endif
   });
 }

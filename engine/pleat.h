@@ -268,7 +268,7 @@ typedef struct pleat_cloth_settings {
                         or settings change. In gusts it does not sleep. Default 0: never; .001 is hard to see */
   uint32_t collides_with; /* bits: meets the bodies that are in one of these groups, see `groups` of a collider, as if
                              there were no others; default 0xffffffff: all */
-  uint32_t reserved;      /* 0: keeps a pleat_cloth_def free of padding until another setting needs the place */
+  uint32_t reserved;      /* 0: keeps the struct free of padding until a field that is 0 by default needs the place */
 } pleat_cloth_settings;
 
 /* Measured cloths, for fabric_apply. H. Wang, J. O'Brien, R. Ramamoorthi, "Data-Driven Elastic Models for Cloth", 2011:
@@ -353,6 +353,7 @@ typedef struct pleat_collider_def {
   float half_extents[3]; /* box: m, at least 1e-4 */
   uint32_t groups;       /* bits: the groups it is in; cloths whose collides_with has none of them do not meet it, and
                             no cloth does where it is 0; default 1 */
+  uint32_t reserved;     /* 0: as of pleat_cloth_settings */
 } pleat_collider_def;
 
 /* Settings that may change while the collider lives (collider_set). Filled by collider_get. */

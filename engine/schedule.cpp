@@ -29,6 +29,12 @@ Plan plan_of(const World& world, const ClothRecord& cloth) {
   return plan;
 }
 
+/// The plans of all cloths; those that sleep go on sleeping.
+void plan_anew(World& world) {
+  for (const ClothRecord& cloth : world.clothes) make_room(world, cloth);
+  for (ClothRecord& cloth : world.clothes) replan(world, cloth);
+}
+
 /// The cloths of a layer, which do not see each other.
 struct LayerTasks {
   World& world;
@@ -195,9 +201,8 @@ void draw(World& world, ClothRecord& cloth) {
 void replan(const World& world, ClothRecord& cloth) { cloth.plan = plan_of(world, cloth); }
 
 void replan(World& world) {
-  for (const ClothRecord& cloth : world.clothes) make_room(world, cloth);
+  plan_anew(world);
   wake_all(world);
-  for (ClothRecord& cloth : world.clothes) replan(world, cloth);
 }
 
 BodyCensus body_census(const World& world) {
@@ -209,9 +214,9 @@ BodyCensus body_census(const World& world) {
           .meshes = world.meshes.size()};
 }
 
-void replan(World& world, const BodyCensus& before) {
-  if (body_census(world) != before) return replan(world);
-  wake_all(world);
+void replan(World& world, const BodyCensus& before, std::uint32_t groups) {
+  if (body_census(world) != before) plan_anew(world);
+  wake_who_meets(world, groups);
 }
 
 void tick(World& world, float dt) {

@@ -37,8 +37,9 @@ struct BodyCensus {
 };
 BodyCensus body_census(const World& world);
 /// The same after a body came or went: nothing is decided anew unless the census has changed, so that a crowd's bodies
-/// take no longer the more there are. Throws std::bad_alloc; all plans are as they were then.
-void replan(World& world, const BodyCensus& before);
+/// take no longer the more there are. Wakes cloths that meet a body of `groups`. Throws std::bad_alloc; all plans are
+/// as they were then.
+void replan(World& world, const BodyCensus& before, std::uint32_t groups);
 
 /// And for one cloth, whose need of optional columns is as it was: on any thread.
 void replan(const World& world, ClothRecord& cloth);

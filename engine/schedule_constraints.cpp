@@ -88,6 +88,7 @@ void check_energy(ClothTick& t) {
                    .capsules = &w.capsules,
                    .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
                    .planes = {w.planes.data(), w.planes.size()},
+                   .collides_with = t.settings.collides_with,
                    .start_speed = rms_speed(n, t.mass, t.inverse_mass, t.start_velocity),
                    .gravity = length(Vec3{g[0], g[1], g[2]}),
                    .wind = length(t.air),

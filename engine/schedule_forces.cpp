@@ -188,7 +188,7 @@ constexpr Row kRows[] = {
                    .force = t.force});
      }},
 #ifdef PLEAT_WITH_COLLISION
-    {Phase::kStage, "contact_acceleration", with_colliders,
+    {Phase::kStage, "contact_acceleration", with_others,
      [](ClothTick& t) {
        run(ContactAcceleration{.contacts = contacts_of(t),
                                .position = t.position,

@@ -43,8 +43,12 @@ inline const char* with_itself(const World&, const ClothRecord& c) {
 inline const char* with_layers(const World&, const ClothRecord& c) {
   return c.settings.layer > 1 ? kNeeded : c.settings.layer == 1 ? "the innermost layer" : "layer is 0";
 }
+/// Where bodies or other cloths may touch it.
+inline const char* with_others(const World& w, const ClothRecord& c) {
+  return with_layers(w, c) == kNeeded ? kNeeded : with_colliders(w, c);
+}
 inline const char* with_contacts(const World& w, const ClothRecord& c) {
-  return with_itself(w, c) == kNeeded || with_layers(w, c) == kNeeded ? kNeeded : with_colliders(w, c);
+  return with_itself(w, c) == kNeeded ? kNeeded : with_others(w, c);
 }
 
 #ifdef PLEAT_WITH_COLLISION

@@ -52,6 +52,12 @@ void wake_all(World& world) {
   for (ClothRecord& cloth : world.clothes) wake(cloth);
 }
 
+void wake_who_meets(World& world, std::uint32_t groups) {
+  for (ClothRecord& cloth : world.clothes) {
+    if ((cloth.settings.collides_with & groups) != 0) wake(cloth);
+  }
+}
+
 void wake_around_bodies(World& world, Worker& worker) {
   if (!world.has_colliders()) return;
   for (ClothRecord& cloth : world.clothes) {

@@ -8,6 +8,8 @@ namespace pleat {
 /// Something that a cloth depends on has changed; `wake_all`: that all may depend on.
 void wake(ClothRecord& cloth);
 void wake_all(World& world);
+/// A body in these groups is another than it was, or there no more.
+void wake_who_meets(World& world, std::uint32_t groups);
 /// Whether the cloth has nothing to do in this tick: to be asked before it, with the tick's poses in place.
 bool sleeps_on(const ClothTick& t);
 /// Before a jump takes bodies along, which then have not moved: what sleeps where one leaves or arrives wakes.

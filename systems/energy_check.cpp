@@ -39,13 +39,19 @@ bool SpeedBound::validate() const {
 float SpeedBound::least() const { return kAny + 2.0f * (start_speed + gravity * dt); }
 
 float SpeedBound::run() const {
-  float way = 0.0f;  // of the fastest body, m
-  way = std::max(way, longest_way(capsules->previous_a.view(), capsules->next_a.view(), capsules->size()));
-  way = std::max(way, longest_way(capsules->previous_b.view(), capsules->next_b.view(), capsules->size()));
+  float way = 0.0f;  // of the fastest body that the cloth meets, m
+  const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
+  const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
+  for (std::size_t i = 0; i < capsules->size(); ++i) {
+    if (capsules->meets(i, collides_with)) way = std::max({way, length(a1[i] - a0[i]), length(b1[i] - b0[i])});
+  }
   for (const MeshCollider* mesh : meshes) {
+    if (!mesh->meets(collides_with)) continue;
     way = std::max(way, longest_way(mesh->previous.view(), mesh->next.view(), mesh->next.size()) + mesh->bow);
   }
-  for (const PlaneCollider& plane : planes) way = std::max(way, length(plane.next.position - plane.previous.position));
+  for (const PlaneCollider& plane : planes) {
+    if (plane.meets(collides_with)) way = std::max(way, length(plane.next.position - plane.previous.position));
+  }
   way += longest_way(pin_previous, pin_next, garment->pins.size());
 
   float excess = 0.0f, energy = 0.0f, moving = 0.0f;  // m, J, kg

@@ -29,6 +29,7 @@ struct SpeedBound {
   const CapsuleColumns* capsules = nullptr;
   std::span<const MeshCollider* const> meshes;
   std::span<const PlaneCollider> planes;
+  std::uint32_t collides_with = kAllGroups;
   float start_speed = 0.0f;                       // v, m/s
   float gravity = 0.0f, wind = 0.0f;              // m/s2, m/s
   float stiffness = 0.0f, bend_stiffness = 0.0f;  // N/m, N m

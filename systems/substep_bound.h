@@ -7,7 +7,7 @@
 
 namespace pleat {
 
-/// How many substeps it takes so that in none of them an enabled body near the cloth moves, relative to the cloth, by
+/// How many substeps it takes so that in none of them a body near the cloth that it meets moves, relative to it, by
 /// more than what contact rows can take back: for a capsule `reach` of radius + thickness, for a mesh as far as
 /// features are looked for. Within that, rows remember the side on which the cloth was. Motion is measured from the
 /// mean velocity u of the cloth, so that a body that carries its cloth along asks for nothing:

@@ -167,6 +167,7 @@ TEST_F(Collider, SettingsChangeAndAreChecked) {
     ASSERT_EQ(api().collider_get(world, id, &s), pleat_result{PLEAT_OK});
     EXPECT_EQ(s.friction, 0.75f);
     EXPECT_EQ(s.thickness, 0.01f);
+    EXPECT_EQ(s.groups, 1u);
     for (float pleat_collider_settings::*field :
          {&pleat_collider_settings::friction, &pleat_collider_settings::thickness, &pleat_collider_settings::radius,
           &pleat_collider_settings::radius_b}) {

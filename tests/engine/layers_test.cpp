@@ -202,7 +202,7 @@ TEST(Layers, PairsThatFoundNoRoomGetThatOfAClothThatGoes) {
   place(scene, lower, 0, 0.005f, 0, 0);
   const pleat_cloth upper = scene.cloth(scene.sheet(6), in_layer(2));
   place(scene, upper, 0, 0.02f, 0, 0);
-  scene.step(300);
+  scene.step(20);
   const auto pairs = [&] { return scene.inside().clothes.back().layer_pair_count; };
   const std::uint32_t room = SelfColumns::kPairsPerParticle * scene.info(upper).particles;
   ASSERT_EQ(pairs(), room);

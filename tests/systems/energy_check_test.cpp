@@ -83,7 +83,7 @@ TEST_F(EnergyCheckTest, EachSourceAddsTwiceTheSpeedThatItCanGive) {
   for (Vec3Column* column : {&capsules.previous_a, &capsules.previous_b, &capsules.next_a, &capsules.next_b}) {
     column->resize(1);
   }
-  capsules.enabled.resize(1);
+  capsules.enabled.push_back(1), capsules.groups.push_back(kFirstGroup);
   capsules.next_b.view().set(0, {0.3f, 0, 0.4f});  // 25 m/s
   EXPECT_FLOAT_EQ(bound().run(), kAny + 50.0f);
   PlaneCollider plane;
@@ -96,6 +96,8 @@ TEST_F(EnergyCheckTest, EachSourceAddsTwiceTheSpeedThatItCanGive) {
   const MeshCollider* meshes[] = {&mesh};
   b.meshes = meshes;
   EXPECT_FLOAT_EQ(b.run(), kAny + 80.0f);
+  b.collides_with = ~kFirstGroup;
+  EXPECT_FLOAT_EQ(b.run(), kAny);
 }
 
 TEST_F(EnergyCheckTest, AllHingesMayHaveBeenBentByHalfATurn) {
