@@ -23,6 +23,7 @@ struct Image {
 };
 
 inline constexpr int kMostPixels = 16384;  ///< along a side
+inline constexpr int kMostDrawn = 8192;    ///< the same, of what is drawn at once
 
 /// An image of one colour, 0xRRGGBBAA. Errors: std::invalid_argument unless both sizes are in 1..kMostPixels.
 Image make_image(int width, int height, std::uint32_t rgba);

@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "demo/picture/renderer.h"
-
 namespace pleat::demo {
 namespace {
 

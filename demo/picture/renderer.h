@@ -7,8 +7,6 @@
 
 namespace pleat::demo {
 
-inline constexpr int kMostDrawn = 8192;  ///< pixels along a side
-
 /// Draws frames of one size in software, without a display: a technical illustration of cloth, bodies and sticks, lit
 /// by a key light over the viewer's left shoulder, with soft shadows, on a light floor.
 class Renderer {

@@ -37,9 +37,12 @@ std::string join(const std::vector<std::string>& list) {
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
+  const auto line_at = [&](size_t end) {
+    return size_t(1 + std::count(text.begin(), text.begin() + ptrdiff_t(end), '\n'));
+  };
   const auto line_read = [&] {  // of what was just read, which the parser may be a character past
     const auto read = std::max<std::streamoff>(1, stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in));
-    return size_t(1 + std::count(text.begin(), text.begin() + read - 1, '\n'));
+    return line_at(size_t(read - 1));
   };
   std::vector<std::set<std::string>> open;  // the keys so far of each object that is open, by depth
   using Event = nlohmann::json::parse_event_t;
@@ -58,8 +61,7 @@ nlohmann::json parse_json(const std::string& text, const std::string& name) {
     return nlohmann::json::parse(stream, check);
   } catch (const nlohmann::json::parse_error& error) {
     const size_t end = std::min(text.size(), error.byte);
-    const auto line = 1 + std::count(text.begin(), text.begin() + ptrdiff_t(end), '\n');
-    throw InputError(name, size_t(line), "is not JSON here" + std::string(end >= text.size() ? " (cut short?)" : ""));
+    throw InputError(name, line_at(end), "is not JSON here" + std::string(end >= text.size() ? " (cut short?)" : ""));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name, line_read(), std::string("is not JSON: ") + error.what());
   }

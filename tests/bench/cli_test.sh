@@ -1,26 +1,14 @@
 #!/usr/bin/env bash
 # Runs the programs of bench as a user would, mostly wrongly: cli_test.sh FOLDER_OF_PROGRAMS
-set -u
 programs=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
+# shellcheck source=tests/cli_checks.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../cli_checks.sh"
 
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
-
-# refused TEXT PROGRAM ARGUMENT...: at once, status 2, TEXT on stderr, no new file or folder.
+# refused TEXT PROGRAM ARGUMENT...: at once, see refused_command.
 refused() {
-  local text=$1 program=$2 status
+  local text=$1 program=$2
   shift 2
-  timeout 5 "$programs/$program" "$@" >/dev/null 2>"$work.stderr"
-  status=$?
-  [ "$status" -eq 2 ] || fail "$program $*: status $status, expected 2"
-  grep -qF -- "$text" "$work.stderr" || fail "$program $*: does not say \`$text\` but: $(cat "$work.stderr")"
-  [ -z "$(ls -A)" ] || fail "$program $*: left something behind: $(ls -A)"
+  refused_command "$text" timeout 5 "$programs/$program" "$@"
 }
 
 for program in ablation error_vs_time frame_budget scaling stability_map surface_error validate; do
@@ -50,10 +38,4 @@ for signal in INT TERM; do
     [ -z "$(ls -A)" ] || fail "$command left something behind at SIG$signal"
   done
 done
-rm -f "$work.stderr"
-
-if [ "$failures" -gt 0 ]; then
-  echo "$failures checks failed" >&2
-  exit 1
-fi
-echo 'all passed'
+finish

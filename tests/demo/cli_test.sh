@@ -1,29 +1,15 @@
 #!/usr/bin/env bash
 # Runs the program `pleat` as a user would, mostly wrongly: cli_test.sh PATH_OF_PLEAT
 # Each mistake must end with status 2, a line on stderr that names the place, and nothing left behind.
-set -u
 pleat=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
+# shellcheck source=tests/cli_checks.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../cli_checks.sh"
 
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
-
-# refused TEXT COMMAND...: status 2, TEXT on stderr, no new file or folder.
+# refused TEXT ARGUMENT...: see refused_command.
 refused() {
-  local text=$1 before status
+  local text=$1
   shift
-  before=$(find . | sort)
-  "$pleat" "$@" >/dev/null 2>"$work.stderr"
-  status=$?
-  [ "$status" -eq 2 ] || fail "pleat $*: status $status, expected 2"
-  grep -qF -- "$text" "$work.stderr" || fail "pleat $*: does not say \`$text\` but: $(cat "$work.stderr")"
-  [ "$(find . | sort)" = "$before" ] || fail "pleat $*: left something behind: $(find . | sort)"
-  rm -f "$work.stderr"
+  refused_command "$text" "$pleat" "$@"
 }
 
 # accepted COMMAND...: status 0; what it printed is in $output.
@@ -184,10 +170,4 @@ for signal in INT TERM; do
     [ "$(find . | sort)" = "$before" ] || fail "pleat $command left something behind at SIG$signal"
   done
 done
-rm -f "$work.stderr"
-
-if [ "$failures" -gt 0 ]; then
-  echo "$failures checks failed" >&2
-  exit 1
-fi
-echo 'all passed'
+finish
