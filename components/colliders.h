@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "components/column.h"
 #include "components/rigid_pose.h"
@@ -67,6 +68,14 @@ struct MeshCollider {
   explicit MeshCollider(std::pmr::memory_resource* m) : previous(m), next(m), triangles(m), local(m) {}
   bool is_rigid() const { return local.size() != 0; }
   bool meets(std::uint32_t wanted) const { return enabled && (groups & wanted) != 0; }
+};
+
+/// A world's bodies, of which a cloth meets some.
+struct BodiesMet {
+  const CapsuleColumns* capsules = nullptr;
+  std::span<const MeshCollider* const> meshes{};
+  std::span<const PlaneCollider> planes{};
+  std::uint32_t collides_with = kAllGroups;
 };
 
 /// A capsule at one moment of a substep: where its core is and how far it moves until the substep ends.

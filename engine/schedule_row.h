@@ -51,6 +51,14 @@ inline const char* with_contacts(const World& w, const ClothRecord& c) {
   return with_itself(w, c) == kNeeded ? kNeeded : with_others(w, c);
 }
 
+inline BodiesMet bodies_met(const ClothTick& t) {
+  const World& w = t.world;
+  return {.capsules = &w.capsules,
+          .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
+          .planes = {w.planes.data(), w.planes.size()},
+          .collides_with = t.settings.collides_with};
+}
+
 #ifdef PLEAT_WITH_COLLISION
 /// The poses of the capsules within `reach` of the cloth, m.
 inline void move_capsules(ClothTick& t, float reach) {

@@ -24,16 +24,12 @@ bool is_carried([[maybe_unused]] const ClothTick& t) {
 }
 
 Disturbance disturbance(const ClothTick& t) {
-  const World& w = t.world;
   return {.garment = &t.garment,
           .position = t.position,
           .origin = t.cloth.origin,
           .pin_previous = t.pin_previous,
           .pin_next = t.pin_next,
-          .capsules = &w.capsules,
-          .meshes = {w.mesh_pointers.data(), w.mesh_pointers.size()},
-          .planes = {w.planes.data(), w.planes.size()},
-          .collides_with = t.settings.collides_with,
+          .bodies = bodies_met(t),
           .reach = t.settings.thickness + kNear};
 }
 

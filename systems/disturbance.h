@@ -1,8 +1,6 @@
 // Whether anything around a cloth that sleeps has moved.
 #pragma once
 
-#include <span>
-
 #include "components/colliders.h"
 #include "components/garment.h"
 
@@ -18,10 +16,7 @@ struct Disturbance {
   ConstVec3View position;
   Vec3 origin{};  // of positions, m in the world
   ConstVec3View pin_previous, pin_next;
-  const CapsuleColumns* capsules = nullptr;
-  std::span<const MeshCollider* const> meshes;
-  std::span<const PlaneCollider> planes;
-  std::uint32_t collides_with = kAllGroups;
+  BodiesMet bodies;
   float reach = 0.0f;      // m
   bool on_the_way = true;  // else bodies jump
 

@@ -32,25 +32,26 @@ float rms_speed(std::size_t count, const float* mass, const float* inverse_mass,
 
 bool SpeedBound::validate() const {
   return garment != nullptr && start.x != nullptr && mass != nullptr && inverse_mass != nullptr &&
-         (garment->pins.size() == 0 || (pin_previous.x != nullptr && pin_next.x != nullptr)) && capsules != nullptr &&
-         start_speed >= 0.0f && dt > 0.0f && substep > 0.0f;
+         (garment->pins.size() == 0 || (pin_previous.x != nullptr && pin_next.x != nullptr)) &&
+         bodies.capsules != nullptr && start_speed >= 0.0f && dt > 0.0f && substep > 0.0f;
 }
 
 float SpeedBound::least() const { return kAny + 2.0f * (start_speed + gravity * dt); }
 
 float SpeedBound::run() const {
   float way = 0.0f;  // of the fastest body that the cloth meets, m
+  const CapsuleColumns* const capsules = bodies.capsules;
   const ConstVec3View a0 = capsules->previous_a.view(), a1 = capsules->next_a.view();
   const ConstVec3View b0 = capsules->previous_b.view(), b1 = capsules->next_b.view();
   for (std::size_t i = 0; i < capsules->size(); ++i) {
-    if (capsules->meets(i, collides_with)) way = std::max({way, length(a1[i] - a0[i]), length(b1[i] - b0[i])});
+    if (capsules->meets(i, bodies.collides_with)) way = std::max({way, length(a1[i] - a0[i]), length(b1[i] - b0[i])});
   }
-  for (const MeshCollider* mesh : meshes) {
-    if (!mesh->meets(collides_with)) continue;
+  for (const MeshCollider* mesh : bodies.meshes) {
+    if (!mesh->meets(bodies.collides_with)) continue;
     way = std::max(way, longest_way(mesh->previous.view(), mesh->next.view(), mesh->next.size()) + mesh->bow);
   }
-  for (const PlaneCollider& plane : planes) {
-    if (plane.meets(collides_with)) way = std::max(way, length(plane.next.position - plane.previous.position));
+  for (const PlaneCollider& plane : bodies.planes) {
+    if (plane.meets(bodies.collides_with)) way = std::max(way, length(plane.next.position - plane.previous.position));
   }
   way += longest_way(pin_previous, pin_next, garment->pins.size());
 

@@ -1,8 +1,6 @@
 // Whether a cloth moves as if it had exploded: faster than all that acted on it in a tick could have made it.
 #pragma once
 
-#include <span>
-
 #include "components/colliders.h"
 #include "components/garment.h"
 
@@ -26,10 +24,7 @@ struct SpeedBound {
   const float* mass = nullptr;
   const float* inverse_mass = nullptr;
   ConstVec3View pin_previous, pin_next;
-  const CapsuleColumns* capsules = nullptr;
-  std::span<const MeshCollider* const> meshes;
-  std::span<const PlaneCollider> planes;
-  std::uint32_t collides_with = kAllGroups;
+  BodiesMet bodies;
   float start_speed = 0.0f;                       // v, m/s
   float gravity = 0.0f, wind = 0.0f;              // m/s2, m/s
   float stiffness = 0.0f, bend_stiffness = 0.0f;  // N/m, N m

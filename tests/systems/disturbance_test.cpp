@@ -30,9 +30,7 @@ struct DisturbanceTest : testing::Test {
             .position = sheet.position,
             .pin_previous = pin_from.view(),
             .pin_next = pin_to.view(),
-            .capsules = &capsules,
-            .meshes = {},
-            .planes = {},
+            .bodies = {.capsules = &capsules},
             .reach = 0.05f};
   }
   bool after_move_to(float x) {
@@ -50,7 +48,7 @@ TEST_F(DisturbanceTest, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = around(), bad.pin_next = {};
   EXPECT_FALSE(bad.validate());
-  bad = around(), bad.capsules = nullptr;
+  bad = around(), bad.bodies.capsules = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = around(), bad.reach = kNan;
   EXPECT_FALSE(bad.validate());
@@ -81,7 +79,7 @@ TEST_F(DisturbanceTest, MeshesAndPlanesToo) {
   const MeshCollider* meshes[] = {&mesh};
   PlaneCollider plane;
   Disturbance d = around();
-  d.meshes = meshes, d.planes = {&plane, 1};
+  d.bodies.meshes = meshes, d.bodies.planes = {&plane, 1};
   EXPECT_FALSE(d.run());
   mesh.next.view().set(0, {0, 3, 0});
   EXPECT_TRUE(d.run());

@@ -23,9 +23,7 @@ struct EnergyCheckTest : testing::Test {
             .inverse_mass = sheet.inverse_mass,
             .pin_previous = pin_from.view(),
             .pin_next = pin_to.view(),
-            .capsules = &capsules,
-            .meshes = {},
-            .planes = {},
+            .bodies = {.capsules = &capsules},
             .room = 1e6f,
             .dt = 0.02f,
             .substep = 0.002f};
@@ -45,7 +43,7 @@ TEST_F(EnergyCheckTest, RefusesToRunWithAFieldMissing) {
   EXPECT_FALSE(bad.validate());
   bad = bound(), bad.pin_next = {};
   EXPECT_FALSE(bad.validate());
-  bad = bound(), bad.capsules = nullptr;
+  bad = bound(), bad.bodies.capsules = nullptr;
   EXPECT_FALSE(bad.validate());
   bad = bound(), bad.substep = 0.0f;
   EXPECT_FALSE(bad.validate());
@@ -88,15 +86,15 @@ TEST_F(EnergyCheckTest, EachSourceAddsTwiceTheSpeedThatItCanGive) {
   EXPECT_FLOAT_EQ(bound().run(), kAny + 50.0f);
   PlaneCollider plane;
   plane.next.position = {0, 0.6f, 0};  // 30 m/s
-  b = bound(), b.planes = {&plane, 1};
+  b = bound(), b.bodies.planes = {&plane, 1};
   EXPECT_FLOAT_EQ(b.run(), kAny + 60.0f);
   MeshCollider mesh(std::pmr::new_delete_resource());
   mesh.previous.resize(2), mesh.next.resize(2);
   mesh.next.view().set(1, {0.7f, 0, 0}), mesh.bow = 0.1f;  // 40 m/s
   const MeshCollider* meshes[] = {&mesh};
-  b.meshes = meshes;
+  b.bodies.meshes = meshes;
   EXPECT_FLOAT_EQ(b.run(), kAny + 80.0f);
-  b.collides_with = ~kFirstGroup;
+  b.bodies.collides_with = ~kFirstGroup;
   EXPECT_FLOAT_EQ(b.run(), kAny);
 }
 
